@@ -7,9 +7,9 @@
 !> to the next the edge stays between them by itself, and where it never does it stays nowhere.
 !> Edges of several pads are released one after the other.
 module gfb_edge_start
-  use gfb_kinds, only: wp, most_pads
+  use gfb_kinds, only: wp
   use gfb_units, only: micrometres
-  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down, ending_fold
+  use gfb_ending, only: path_is_drawn, path_lost, ending_touch_down
   use gfb_petsc_session, only: any_rank
   use gfb_text, only: text
   use gfb_operating_point, only: operating_point_type
@@ -18,8 +18,8 @@ module gfb_edge_start
   use gfb_newton, only: newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at, guess_position
-  use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of, trial_settings, &
-                               with_fixed_edges, first_step, shortest_trial
+  use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of, &
+                               with_fixed_edges, shortest_trial
   use gfb_saved_state, only: saved_state_type
   use gfb_soft_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
@@ -46,7 +46,6 @@ module gfb_edge_start
   integer, parameter :: most_trials = 16         !! to find where the edge needs no force
   real(wp), parameter :: least_fall = 0.5_wp     !! of the force from release to release [1]
 
-  character(len=*), parameter :: held = ', with the free edge of the top foil fixed at its height at rest'
   real(wp), parameter :: shares(3) = [1.0_wp, 0.5_wp, 0.2_wp] !! of the load, under which contacts are released [1]
 
 contains
@@ -78,22 +77,6 @@ contains
       end do
     end associate
   end subroutine release_edges
-
-  !> Of several edges that are fixed, releases those that the film presses down, at the present point: without a hold they
-  !> lie lower.
-  subroutine release_pressed(problem)
-    type(start_problem_type), intent(in) :: problem
-    type(operating_point_type) :: free
-    type(path_report_type) :: report
-    integer :: pad
-
-    do pad = 1, size(problem%bearing%pad)
-      if (.not. edge_force(problem%bearing, pad) > 0.0_wp) cycle
-      call problem%newton%log%detail(edge_words(problem%bearing, pad)//' is pressed down, and released:')
-      free = without_holds(problem%bearing%point, pad, pad)
-      call release(problem, free, problem%newton%settings, [lowest, resting]*clearance_of(problem%bearing), report)
-    end do
-  end subroutine release_pressed
 
   !> A point with the edges of some pads released, and the others as they are.
   pure function without_holds(point, first, last) result(free)
@@ -352,15 +335,13 @@ contains
   !> itself: the equilibrium with a resting edge, where there is one, rather than those whose edge is lifted.
   !>
   !> Where it stays nowhere `ends` is true, the report says what was measured, and the state is left with the edge fixed
-  !> where that took the least force. It is true as well where the load cannot be reached, and the report then has how
-  !> that ended.
+  !> where that took the least force.
   subroutine try_free_edge(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(path_report_type), intent(out) :: report !! how it ended
     logical, intent(out) :: ends !! there is no answer
     type(path_settings_type) :: settings
     type(operating_point_type) :: easier
-    type(saved_state_type) :: fixed
     logical :: bends
     integer :: number
 
@@ -375,12 +356,6 @@ contains
     end do
     if (report%shaft_fixed) return
     if (report%converged() .and. number > 1) report%ending = path_lost('')
-    if (.not. report%converged()) then
-      call fixed%save(problem%bearing)
-      call continue_released(problem, report, ends)
-      if (.not. (report%converged() .or. ends)) call continue_fixed(problem, settings, fixed, report, ends)
-      call fixed%destroy()
-    end if
     if (report%converged() .and. any(problem%bearing%point%edge_hold > 0.0_wp)) then
       call release_edges(problem, report, ends)
       bends = edge_bends(problem%bearing)
@@ -413,92 +388,4 @@ contains
     logical :: bends
     bends = any_rank(bearing%pad(1)%edge%pairs() > 0)
   end function edge_bends
-
-  !> Short of the target: releases the edge there, and follows the branch.
-  subroutine continue_released(problem, report, ends)
-    type(start_problem_type), intent(inout) :: problem
-    type(path_report_type), intent(inout) :: report
-    logical, intent(out) :: ends !! the shaft touches down
-    type(operating_point_type) :: free
-
-    ends = .false.
-    free = without_holds(problem%bearing%point, 1, most_pads)
-    call problem%newton%log%detail('released short of the load:')
-    call release(problem, free, problem%newton%settings, &
-                 [lowest*clearance_of(problem%bearing), maxval(problem%bearing%point%edge_height)], report)
-    if (.not. report%converged()) return
-    call problem%anchor%save(problem%bearing)
-    call follow_path(problem%bearing, problem%newton, problem%target, first_step, trial_settings(problem%settings), report)
-    ends = report%has_cause()
-  end subroutine continue_released
-
-  !> The branch with the edge released does not lead to the target: goes on with the edge fixed, which cannot fold by it.
-  subroutine continue_fixed(problem, settings, fixed, report, ends)
-    type(start_problem_type), intent(inout) :: problem
-    type(path_settings_type), intent(in) :: settings !! of paths with the edge fixed
-    type(saved_state_type), intent(in) :: fixed !! state with the edge fixed, short of the target
-    type(path_report_type), intent(inout) :: report
-    logical, intent(out) :: ends !! neither leads there
-    type(path_report_type) :: released
-    type(saved_state_type) :: last
-    logical :: sunk
-
-    released = report
-    call last%save(problem%bearing)
-    call fixed%restore(problem%bearing)
-    call problem%newton%log%detail('on with the edge fixed:')
-    call follow_path(problem%bearing, problem%newton, with_fixed_edges(problem), first_step, settings, report)
-    if (size(problem%bearing%pad) > 1 .and. .not. report%converged()) then
-      call fixed%restore(problem%bearing)
-      call release_pressed(problem)
-      call follow_path(problem%bearing, problem%newton, with_same_edges(problem), first_step, &
-                       trial_settings(problem%settings), report)
-    end if
-    ! Without a hold the edge lies lower, and the path may lead on; of several such edges were released before.
-    sunk = edge_force(problem%bearing, 1) > 0.0_wp
-    sunk = sunk .and. size(problem%bearing%pad) == 1
-    ends = .not. report%converged() .and. (report%has_cause() .and. .not. sunk .or. released%ending%kind == ending_fold)
-    if (ends .and. released%ending%kind == ending_fold) then
-      report = released
-      call last%restore(problem%bearing)
-    else if (ends) then
-      call report%ending%add_words('', held)
-    else if (.not. report%converged()) then
-      call release_short_of_load(problem, report, ends)
-    end if
-    call last%destroy()
-  end subroutine continue_fixed
-
-  !> No step leads to the target with the edge fixed: where it is fixed now, seeks the height where it stays by itself, and
-  !> follows the branch from there.
-  subroutine release_short_of_load(problem, report, ends)
-    type(start_problem_type), intent(inout) :: problem
-    type(path_report_type), intent(inout) :: report !! of the path with the edge fixed
-    logical, intent(out) :: ends !! the edge stays nowhere, or the branch ends
-    type(operating_point_type) :: target
-    type(path_report_type) :: short
-    type(saved_state_type) :: last
-    real(wp) :: share
-
-    target = problem%target
-    problem%target = without_holds(report%reached, 1, most_pads)
-    call last%save(problem%bearing)
-    share = norm2(problem%target%load(:2))/max(norm2(target%load(:2)), tiny(1.0_wp))
-    call problem%newton%log%detail('the height where the edge stays short of the load:')
-    call release_edges(problem, short, ends)
-    problem%target = target
-    if (short%converged()) then
-      call problem%anchor%save(problem%bearing)
-      call follow_path(problem%bearing, problem%newton, target, first_step, trial_settings(problem%settings), report)
-      ends = report%has_cause()
-    else if (ends) then
-      report = short
-      call report%ending%add_words('', ', under '//text(100.0_wp*share, 3)//' % of the load; from there '// &
-                                   'no step leads on with the edge fixed')
-    else
-      call last%restore(problem%bearing)
-      call report%ending%add_words('', held//', where the film presses it down')
-    end if
-    call last%destroy()
-  end subroutine release_short_of_load
 end module gfb_edge_start
