@@ -1,18 +1,22 @@
-!> What the program tells of itself, without a case.
+!> What the program tells of itself, without a case: help, keys, results, and case files to begin
+!> with, that have every key of an analysis with unit, default and meaning.
 module gfb_information
   use gfb_errors, only: error_type, fail
   use gfb_key_book, only: key_type, no_default
   use gfb_result_names, only: find_result, result_words, row_names, results_text
   use gfb_result_table, only: result_type
   use gfb_scene_reading, only: all_keys, key_table
-  use gfb_text, only: lower_case, nearest_word, plain_text
-  use gfb_case_template, only: template_text
+  use gfb_text, only: lower_case, nearest_word, plain_text, join
   use gfb_command_line, only: command_line_type, help_text
   use gfb_provenance, only: version_text
+  use gfb_case_keys, only: case_keys_type
+  use gfb_scene, only: scene_type, read_groups
+  use gfb_scene_case, only: analysis_words
   implicit none (type, external)
   private
   public :: information
 
+  integer, parameter :: comment_column = 42, longest_line = 120 !! of a template
   character(len=1), parameter :: next = new_line('a')
   integer, parameter :: longest_name = 64
 
@@ -128,4 +132,220 @@ contains
       call explanation(line%explain, words, error)
     end if
   end subroutine information
+
+  !> The case file of an analysis with which it can begin: run as it is, it has an answer.
+  !>
+  !> Fails where there is no such analysis.
+  subroutine template_text(analysis, words, error)
+    character(len=*), intent(in) :: analysis !! as typed
+    character(len=:), allocatable, intent(out) :: words !! of the file
+    type(error_type), allocatable, intent(out) :: error !! why there is none
+    type(case_keys_type) :: keys
+    type(scene_type) :: scene
+    character(len=:), allocatable :: near
+
+    words = ''
+    if (all(analysis_words /= analysis)) then
+      near = nearest_word(analysis, analysis_words)
+      if (near == '') then
+        near = '.'
+      else
+        near = ', did you mean '//near//'?'
+      end if
+      call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//near// &
+                ' The analyses are '//join(analysis_words, ', '))
+      return
+    end if
+    call keys%open_text(example(analysis), 'template')
+    call read_groups(keys, scene)
+    words = '! A case file of gfb, written by gfb --template. It can be run as it is. SI '// &
+            'units.'//next// &
+            '! A key in a comment shows its default; take away its ''!'' to give another '// &
+            'value.'//next// &
+            '! The same holds for groups in comments. gfb --check CASE.nml tells of '// &
+            'mistakes,'//next// &
+            '! gfb --explain KEY of a key.'//next// &
+            written(keys%book%keys(:keys%book%count), offered(analysis))
+  end subroutine template_text
+
+  !> The keys as a case file; the groups that are only offered stand in comments.
+  pure function written(met, offer) result(words)
+    type(key_type), intent(in) :: met(:)
+    character(len=*), intent(in) :: offer !! groups between blanks
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: group, before
+    integer :: i
+
+    words = ''
+    group = ''
+    before = ''
+    do i = 1, size(met)
+      if (.not. met(i)%is_echoed) cycle
+      if (met(i)%group /= group) then
+        if (group /= '') words = words//before//'/'//next
+        group = trim(met(i)%group)
+        before = trim(merge('! ', '  ', index(offer, ' '//group//' ') > 0))
+        words = words//next
+        if (before /= '') words = words//'! Where it is wanted:'//next
+        words = words//before//'&'//group//next
+      end if
+      words = words//key_lines(met(i), before)
+    end do
+    words = words//before//'/'//next
+  end function written
+
+  !> A key with its comment, which may need several lines.
+  pure function key_lines(one, before) result(words)
+    type(key_type), intent(in) :: one
+    character(len=*), intent(in) :: before !! '!' in a group that is only offered
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: line, left
+    integer :: last
+
+    line = before//'  ! '
+    if (one%given) line = before//'  '
+    line = line//trim(one%name)//' ='
+    if (one%given .or. one%is_set .or. one%default == '') line = line//' '//one%value
+    left = comment(one)
+    words = ''
+    do
+      if (len(line) < comment_column - 1) line = line//repeat(' ', comment_column - 1 - len(line))
+      line = line//' ! '
+      last = len(left)
+      if (len(line) + last > longest_line) then
+        last = index(left(:min(last, longest_line - len(line))), ' ', back=.true.)
+        if (last == 0) last = len(left)
+      end if
+      words = words//line//trim(left(:last))//next
+      left = left(last + 1:)
+      if (left == '') exit
+      line = before
+    end do
+  end function key_lines
+
+  !> Unit, meaning, choice and default of a key.
+  pure function comment(one) result(words)
+    type(key_type), intent(in) :: one
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (one%unit /= '' .and. one%unit /= '1') words = '['//one%unit//'] '
+    words = words//plain_text(one%meaning)
+    if (index(one%type_words, '`') > 0) words = words//': '//plain_text(one%type_words)
+    if (one%required) then
+      words = words//' (required)'
+    else if (one%default /= '' .and. one%default /= no_default) then
+      words = words//' (default: '//plain_text(one%default)//')'
+    else if (one%given .and. one%default == '') then
+      words = words//' (default: '//plain_text(one%shown_default)//')'
+    end if
+  end function comment
+
+  !> The groups that stand in a template's comments, with values that fit.
+  pure function offered(analysis) result(groups)
+    character(len=*), intent(in) :: analysis
+    character(len=:), allocatable :: groups
+
+    select case (analysis)
+    case ('strip')
+      groups = ' accuracy '
+    case ('modes')
+      groups = ' '
+    case ('linear_dynamics')
+      groups = ' pads bore shaft_contact sweep rotor '
+    case ('lift_off') ! which needs asperities
+      groups = ' pads bore sweep accuracy sample '
+    case ('transient', 'periodic')
+      groups = ' pads bore shaft_contact '
+    case ('load_capacity', 'misalignment_allowance')
+      groups = ' pads bore shaft_contact sweep accuracy sample '
+    case default
+      groups = ' pads bore shaft_contact sweep sensitivity accuracy sample '
+    end select
+  end function offered
+
+  !> The values that a template begins with: those of `inputs/`.
+  pure function example(analysis) result(words)
+    character(len=*), intent(in) :: analysis
+    character(len=:), allocatable :: words
+
+    words = "&scene title='my first case' analysis='"//trim(analysis)//"' /"
+    select case (analysis)
+    case ('strip')
+      words = words//bumps(10)//"width=38.1e-3 fixed_edge='leading' / "// &
+              '&contact friction_sleeve=0.1 / '// &
+              "&strip_load kind='crest_pressure' pressure=0.2e6 steps_up=10 / "// &
+              "&accuracy quantity='maximum_deflection' /"
+    case ('modes')
+      words = words//bumps(4)//"density=8440.0 width=38.1e-3 fixed_edge='leading' / "// &
+              "&modes part='strip' count=6 /"
+    case default
+      words = words//'&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 / '// &
+              '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 / &pads preload=0.1 / '// &
+              '&bore waves=3 wave_amplitude=1.0e-6 / '// &
+              '&shaft_contact roughness=0.5e-6 pressure=10.0e6 / '
+      if (analysis == 'periodic') then ! contacts must not rub
+        words = words//"&model foil='elastic_foundation' foundation_stiffness=4.8243e9 / "// &
+                '&mesh circumferential_elements=48 axial_elements=6 / '// &
+                '&operation speed_rpm=30000.0 load=-60.0, 0.0 / &rotor mass=1.5 / '// &
+                '&periodic steps_per_turn=40 / &unbalance unbalance=1.5e-6 / '// &
+                '&foil_damping foundation_damping=3.0e5 /'
+      else
+        words = words//bearing_example(analysis)
+      end if
+    end select
+  end function example
+
+  !> The same of a bearing of beams.
+  pure function bearing_example(analysis) result(words)
+    character(len=*), intent(in) :: analysis
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: sweep
+
+    words = '&top_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
+            "fixed_edge='trailing' / "//bumps(26)//"fixed_edge='trailing' "// &
+            "fixed_line='half_flat' / &contact friction_top=0.1 friction_sleeve=0.1 / "// &
+            "&model foil='beam' / &operation speed_rpm=30000.0 "
+    if (analysis == 'fixed_position') then
+      words = words//'eccentricity=30.0e-6, 9.0e-6 /'
+    else
+      words = words//'load=-100.0, 0.0 /'
+    end if
+    sweep = "&sweep parameter='load' values=100.0, 90.0, 80.0 /"
+    select case (analysis)
+    case ('linear_dynamics')
+      words = words//sweep//'&dynamics frequency_ratios=0.5, 1.0 / &rotor mass=1.0 /'
+      return
+    case ('transient')
+      words = words//'&rotor mass=1.0 / &transient turns=0.2 / &unbalance unbalance=2.0e-6 /'
+      return
+    case ('load_capacity')
+      words = words//"&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 / "// &
+              "&capacity smallest_gap=4.0e-6 / &accuracy quantity='load_capacity' /"
+    case ('lift_off')
+      words = words//sweep// &
+              "&capacity contact_part=0.01 / &accuracy quantity='lift_off_speed_rpm' /"
+    case ('misalignment_allowance')
+      words = words//sweep// &
+              "&capacity smallest_gap=4.0e-6 / &accuracy quantity='misalignment_allowance' /"
+    case default
+      if (analysis == 'fixed_position') sweep = "&sweep parameter='eccentricity_x' "// &
+                                                'values=30.0e-6, 29.0e-6, 28.0e-6 /'
+      words = words//sweep//"&sensitivity quantity='minimum_gap' "// &
+              "parameters='bearing%clearance', 'gas%viscosity' tolerances=1.0e-6, 2.0e-7 / "// &
+              "&accuracy quantity='minimum_gap' /"
+    end select
+    words = words//'&sample count=100 /'
+  end function bearing_example
+
+  !> The bump foil of [Gu2020], case 1, but for its fixed edge.
+  pure function bumps(number) result(words)
+    integer, intent(in) :: number !! of bumps
+    character(len=:), allocatable :: words
+    character(len=8) :: digits
+
+    write (digits, '(i0)') number
+    words = '&bump_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
+            'half_length=1.778e-3 height=0.508e-3 pitch=4.572e-3 bumps='//trim(digits)//' '
+  end function bumps
 end module gfb_information

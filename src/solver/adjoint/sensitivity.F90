@@ -23,11 +23,18 @@ module gfb_sensitivity
   use gfb_bearing_system, only: bearing_system_type
   use gfb_meshed_foil, only: split_motion
   use gfb_newton, only: newton_type, solve_transposed
-  use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, place_e, place_force, &
-                                place_torque, place_speed, place_extremes
+  use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
+                                place_e, place_force, place_torque, place_speed, place_extremes
+  use gfb_errors, only: error_type
+  use gfb_petsc_session, only: any_rank, sum_over_ranks, share_failure
+  use gfb_fixed_lines, only: fixed_line_half_flat
+  use gfb_scene_reading, only: scene_with_key
+  use gfb_foil_builder, only: keep_elements
+  use gfb_changed_foil, only: elastic_work
+  use gfb_bearing_builder, only: build_like, take_numbers
   implicit none (type)
   private
-  public :: keep_tangent, find_sensitivities, changed_evaluation
+  public :: keep_tangent, find_sensitivities, evaluate_changed
 
   !> How a derivative by a key is made of differences.
   type :: difference_type
@@ -49,24 +56,6 @@ module gfb_sensitivity
     character(len=:), allocatable :: problem  !! why there are none by some parameter
   end type sensitivity_type
 
-  abstract interface
-    !> Residual and numbers at an answer's state with another value of a key; the bearing is as before on return.
-    subroutine changed_evaluation(scene, parameter, value, bearing, answer, residual, number, work, problem, at)
-      import :: scene_type, parameter_type, bearing_system_type, known_answer_type, tVec, wp
-      implicit none (type, external)
-      type(scene_type), intent(in) :: scene !! what is asked for
-      type(parameter_type), intent(in) :: parameter !! the key
-      real(wp), intent(in) :: value !! of it [its unit]
-      type(bearing_system_type), intent(inout) :: bearing !! at its answer
-      type(known_answer_type), intent(in) :: answer !! what is known of it
-      type(tVec), intent(in) :: residual !! scaled
-      real(wp), intent(out) :: number(:) !! as `measure` has them [SI]
-      real(wp), intent(out) :: work(:) !! of elastic forces that are not in the residual, on each adjoint
-      character(len=:), allocatable, intent(out) :: problem !! why there are none; empty where there is none
-      real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
-    end subroutine changed_evaluation
-  end interface
-
 contains
 
   !> The matrix of the bearing's equations at its answer, without artificial stiffness of open contacts.
@@ -82,12 +71,11 @@ contains
   end subroutine keep_tangent
 
   !> Derivatives of all quantities that the scene asks for by all its parameters.
-  subroutine find_sensitivities(scene, bearing, newton, tangent, evaluate, found, at)
+  subroutine find_sensitivities(scene, bearing, newton, tangent, found, at)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(in) :: newton !! with the factors of `find_determinant_sign`
     Mat, intent(in) :: tangent !! of `keep_tangent`
-    procedure(changed_evaluation) :: evaluate !! of the residual with other values of the keys
     type(sensitivity_type), intent(out) :: found !! values and derivatives
     real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
 
@@ -110,7 +98,7 @@ contains
       allocate (found%derivative(size(quantity_words), size(parameter)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       found%problem = ''
       do i = 1, size(parameter)
-        call find_derivatives(scene, parameter(i), bearing, answer, evaluate, combined, adjoint, solved, found%derivative(:, i), &
+        call find_derivatives(scene, parameter(i), bearing, answer, combined, adjoint, solved, found%derivative(:, i), &
                               problem, at)
         if (problem /= '') found%problem = parameter(i)%key%label()//': '//problem
       end do
@@ -264,12 +252,11 @@ contains
   end subroutine find_motions
 
   !> Derivatives of all quantities by a key: by differences of residual and numbers at the state of the answer.
-  subroutine find_derivatives(scene, parameter, bearing, answer, evaluate, combined, adjoint, solved, derivative, problem, at)
+  subroutine find_derivatives(scene, parameter, bearing, answer, combined, adjoint, solved, derivative, problem, at)
     type(scene_type), intent(in) :: scene
     type(parameter_type), intent(in) :: parameter
     type(bearing_system_type), intent(inout) :: bearing
     type(known_answer_type), intent(in) :: answer
-    procedure(changed_evaluation) :: evaluate
     real(wp), intent(in) :: combined(:, :) !! (quantities, numbers)
     Vec, intent(in) :: adjoint(:)     !! one a quantity
     logical, intent(in) :: solved(:)  !! else there is none
@@ -296,7 +283,7 @@ contains
     do steps = -2, 2
       if (problem /= '') exit
       if (.not. abs(difference%weight(steps)) > 0.0_wp) cycle
-      call evaluate(scene, parameter, value + steps*step, bearing, answer, residual, number, work, problem, at)
+      call evaluate_changed(scene, parameter, value + steps*step, bearing, answer, residual, number, work, problem, at)
       PetscCallA(VecAXPY(change, difference%weight(steps)/step, residual, ierr))
       slope = slope + difference%weight(steps)/step*number
       elastic = elastic + difference%weight(steps)/step*work
@@ -357,4 +344,181 @@ contains
       end do
     end if
   end function present_value
+
+  !> Residual and numbers at an answer's state with another value of a key; the bearing is as before on return.
+  subroutine evaluate_changed(scene, parameter, value, bearing, answer, residual, number, work, problem, at)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(parameter_type), intent(in) :: parameter !! the key
+    real(wp), intent(in) :: value !! of it [its unit]
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    type(known_answer_type), intent(in) :: answer !! what is known of it
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:) !! as `measure` has them [SI]
+    real(wp), intent(out) :: work(:) !! of elastic forces that are not in the residual, on each adjoint
+    character(len=:), allocatable, intent(out) :: problem !! why there are none; empty where there is none
+    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+    type(scene_type) :: there
+    type(error_type), allocatable :: error
+    logical :: valid
+
+    number = 0.0_wp
+    work = 0.0_wp
+    problem = ''
+    valid = .true.
+    if (parameter%key%group == 'operation') then
+      call evaluate_operation(parameter, value, bearing, answer, residual, number, valid)
+    else
+      call scene_with_key(scene, parameter%key, value, there, error, at)
+      if (allocated(error)) then
+        problem = error%message
+        return
+      end if
+      call keep_elements(scene, there)
+      if (bearing%is_meshed() .and. keeps_meshes(scene, parameter%key)) then
+        call evaluate_in_place(scene, there, parameter%key, bearing, answer, residual, number, work, valid, error)
+      else
+        call evaluate_rebuilt(there, bearing, answer, residual, number, valid, problem, error)
+      end if
+      if (allocated(error)) problem = error%message
+    end if
+    if (any_rank(.not. valid)) problem = 'the film is closed at a value close by'
+  end subroutine evaluate_changed
+
+  !> The same bearing at another load, the direction kept, or at another speed.
+  subroutine evaluate_operation(parameter, value, bearing, answer, residual, number, valid)
+    type(parameter_type), intent(in) :: parameter
+    real(wp), intent(in) :: value !! [its unit]
+    type(bearing_system_type), intent(inout) :: bearing
+    type(known_answer_type), intent(in) :: answer
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:)
+    logical, intent(out) :: valid !! gap and pressure are positive
+    type(operating_point_type) :: point
+
+    point = bearing%point
+    if (parameter%key%name == 'load') then
+      point%load(:2) = point%load(:2)*(value/norm2(point%load(:2)))
+    else
+      point%speed = angular_speed(value)
+    end if
+    call bearing%evaluate_at(point, bearing%state, residual, valid)
+    number = measure(bearing, answer%unknown, point, answer%nodes)
+  end subroutine evaluate_operation
+
+  !> Whether a key moves neither the film's mesh nor the crests.
+  pure function keeps_meshes(scene, key) result(keeps)
+    type(scene_type), intent(in) :: scene
+    type(swept_key_type), intent(in) :: key
+    logical :: keeps
+
+    associate (name => key%name)
+      select case (key%group)
+      case ('gas', 'bore', 'contact', 'shaft_contact')
+        keeps = .true.
+      case ('bearing')
+        keeps = name == 'clearance' .or. name == 'assembly_interference'
+      case ('pads')
+        keeps = name == 'preload' .or. name == 'preload_offset'
+      case ('top_foil', 'bump_foil')
+        keeps = name == 'thickness' .or. name == 'youngs_modulus' .or. name == 'poissons_ratio' .or. name == 'height' .or. &
+                name == 'free_radius' .or. key%is_gap()
+        ! else the first crest stands as far from the weld as half a bump is long
+        if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
+      case default
+        keeps = .false.
+      end select
+    end associate
+  end function keeps_meshes
+
+  !> The same bearing with other numbers. Its matrix of the foils stays; what changes in it is in the work.
+  subroutine evaluate_in_place(scene, there, key, bearing, answer, residual, number, work, valid, error)
+    type(scene_type), intent(in) :: scene, there !! as it is; with the key changed
+    type(swept_key_type), intent(in) :: key !! that is changed
+    type(bearing_system_type), intent(inout) :: bearing
+    type(known_answer_type), intent(in) :: answer
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:)
+    real(wp), intent(inout) :: work(:) !! 0 where no foil is another
+    logical, intent(out) :: valid !! gap and pressure are positive
+    type(error_type), allocatable, intent(out) :: error
+    real(wp) :: of_pad(size(work))
+    logical :: of_bumps
+    integer :: i
+
+    call take_numbers(there, bearing)
+    call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
+    number = 0.0_wp ! they stay where the foils alone are others
+    select case (key%group)
+    case ('contact', 'top_foil', 'bump_foil')
+    case default
+      number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
+    end select
+    call take_numbers(scene, bearing)
+    of_bumps = key%group == 'bump_foil'
+    if (key%is_gap() .or. .not. (of_bumps .or. key%group == 'top_foil')) return
+    do i = 1, size(answer%motion)
+      associate (pad => bearing%pad(i), motion => answer%motion(i))
+        if (of_bumps) then
+          call elastic_work(pad%foil, there, pad%whole, of_bumps, motion%bumps, of_pad, error)
+        else
+          call elastic_work(pad%foil, there, pad%whole, of_bumps, motion%top, of_pad, error)
+        end if
+      end associate
+      if (allocated(error)) exit
+      work = work + of_pad
+    end do
+    call share_failure(error)
+    work = sum_over_ranks(work)
+  end subroutine evaluate_in_place
+
+  !> Another bearing on a mesh like this one's.
+  subroutine evaluate_rebuilt(there, bearing, answer, residual, number, valid, problem, error)
+    type(scene_type), intent(in) :: there
+    type(bearing_system_type), intent(in) :: bearing
+    type(known_answer_type), intent(in) :: answer
+    type(tVec), intent(in) :: residual !! scaled
+    real(wp), intent(out) :: number(:)
+    logical, intent(out) :: valid !! gap and pressure are positive
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    type(error_type), allocatable, intent(out) :: error
+    type(bearing_system_type) :: other
+
+    number = 0.0_wp
+    valid = .true.
+    problem = ''
+    call build_like(there, bearing, other, error)
+    if (allocated(error)) return
+    if (is_alike(bearing, other)) then
+      call take_contacts(bearing, other)
+      call other%set_unknowns(answer%unknown)
+      call other%evaluate(other%state, residual, valid)
+      number = measure(other, answer%unknown, other%point, answer%nodes)
+    else
+      problem = 'the mesh changes with it'
+    end if
+    call other%destroy()
+  end subroutine evaluate_rebuilt
+
+  !> Whether two bearings have the same unknowns and contacts.
+  function is_alike(bearing, other) result(alike)
+    type(bearing_system_type), intent(in) :: bearing, other
+    logical :: alike
+
+    alike = bearing%local_size() == other%local_size() .and. bearing%film_nodes() == other%film_nodes() .and. &
+      size(bearing%pad(1)%foil%contacts%point) == size(other%pad(1)%foil%contacts%point)
+    if (alike) alike = all(bearing%pad(1)%mesh%mesh_node == other%pad(1)%mesh%mesh_node)
+    alike = .not. any_rank(.not. alike)
+  end function is_alike
+
+  !> Contacts of a bearing are linearised where those of another are.
+  subroutine take_contacts(bearing, other)
+    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(inout) :: other
+    integer :: i
+
+    do i = 1, size(bearing%pad)
+      if (.not. bearing%pad(i)%foil%has_contacts()) cycle
+      call other%pad(i)%foil%contacts%settle_like(bearing%pad(i)%foil%contacts)
+    end do
+  end subroutine take_contacts
 end module gfb_sensitivity

@@ -18,7 +18,6 @@ module gfb_answer_judgement
   use gfb_static_stiffness, only: find_edge_stiffness
   use gfb_stability, only: stability_type, find_stability
   use gfb_sensitivity, only: sensitivity_type, find_sensitivities, keep_tangent
-  use gfb_changed_bearing, only: evaluate_changed
   implicit none (type)
   private
   public :: judge_and_derive, judge_answer
@@ -47,7 +46,7 @@ contains
     if (.not. scene%sensitivity%present) return
     sign_of_determinant = nint(number_in(judged, 'determinant_sign'))
     if (sign_of_determinant == 0) call find_determinant_sign(newton, sign_of_determinant) ! makes the factors
-    call find_sensitivities(scene, bearing, newton, tangent, evaluate_changed, found, value)
+    call find_sensitivities(scene, bearing, newton, tangent, found, value)
     PetscCallA(MatDestroy(tangent, ierr))
     if (found%problem /= '') call log%warning('no derivative by '//found%problem)
     do i = 1, size(quantity_words)

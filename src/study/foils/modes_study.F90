@@ -17,7 +17,7 @@ module gfb_modes_study
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
-  use gfb_mode_energies, only: exact, sharpen_modes
+  use gfb_mode_energies, only: exact, sharpen_modes, free_motions
   use gfb_case_file, only: history_row_type, case_array_type, fill_array
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement
@@ -28,7 +28,6 @@ module gfb_modes_study
   use gfb_foil_builder, only: foil_plan_type
   use gfb_part_builder, only: build_part
   use gfb_foil_plan, only: plan_foil
-  use gfb_free_motions, only: free_motions
   use gfb_reasons, only: reason_few_modes
   use gfb_study, only: study_type
   implicit none (type)
