@@ -7,7 +7,7 @@ module gfb_pad_contacts
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: set_hardness, set_adhesion, linearise_exactly, set_upwind, pad_contacts
+  public :: set_hardness, set_adhesion, linearise_exactly, pad_contacts
 
 contains
 
@@ -54,13 +54,6 @@ contains
     call bearing%linearise_at(bearing%point, fixed, bearing%state)
     call set_artificial_stiffness(bearing, .true.)
   end subroutine linearise_exactly
-
-  !> SUPG instead of Galerkin for the films of all pads.
-  subroutine set_upwind(bearing, upwind)
-    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
-    logical, intent(in) :: upwind !! SUPG
-    bearing%pad%film%flow%upwind = upwind
-  end subroutine set_upwind
 
   !> This rank's contacts of all pads, each of one node; contact lines are numbered on from pad to pad. All ranks ask.
   function pad_contacts(bearing) result(contacts)

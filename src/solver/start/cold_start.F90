@@ -13,7 +13,6 @@ module gfb_cold_start
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_pad_contacts, only: set_upwind
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
@@ -184,7 +183,7 @@ contains
       if (again) again = all(report%ending%kind /= [ending_fold, ending_emptied])
       if (again) again = .not. gives_up(mesh%newton%settings%bound)
       if (again) then
-        call set_upwind(mesh%bearing, .true.)
+        mesh%bearing%pad%film%flow%upwind = .true.
         call log%line('film: Galerkin finds no answer, SUPG is tried')
         call start_pressed(problem, report)
       end if
@@ -239,7 +238,7 @@ contains
     newton%factorizations = rigid_newton%factorizations
     newton%factorizations_before = rigid_newton%factorizations
     bearing%point = target
-    call set_upwind(bearing, rigid%pad(1)%film%flow%upwind)
+    bearing%pad%film%flow%upwind = rigid%pad(1)%film%flow%upwind
     call transfer_answer(rigid, bearing)
     allocate (unknown(bearing%local_size()))
     call bearing%get_unknowns(unknown)

@@ -9,7 +9,6 @@ module gfb_contactless_start
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_pad_contacts, only: set_upwind
   use gfb_film_load, only: film_forces
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
@@ -158,9 +157,9 @@ contains
     type(operating_point_type) :: wanted
     type(bearing_answer_type) :: answer
 
-    call set_upwind(bearing, .true.)
+    bearing%pad%film%flow%upwind = .true.
     call find_position(bearing, newton, target, settings, report)
-    call set_upwind(bearing, .false.)
+    bearing%pad%film%flow%upwind = .false.
     peclet = 0.0_wp
     if (.not. report%converged()) return
     answer = bearing_answer(bearing)

@@ -14,7 +14,6 @@ module gfb_key_path
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: build_bearing
-  use gfb_pad_contacts, only: set_upwind
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, create_newton, solve_newton
   use gfb_start_problem, only: drop_bearing
@@ -234,7 +233,7 @@ contains
       return
     end if
     call build_anew(there, plan, bearing, newton)
-    call set_upwind(bearing, carried%upwind)
+    bearing%pad%film%flow%upwind = carried%upwind
     call compare_nodes(carried, bearing, fits)
     if (fits) then
       call bearing%set_unknowns(carried%unknown)
