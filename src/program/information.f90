@@ -142,17 +142,17 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why there is none
     type(case_keys_type) :: keys
     type(scene_type) :: scene
-    character(len=:), allocatable :: near
+    character(len=:), allocatable :: hint
 
     words = ''
     if (all(analysis_words /= analysis)) then
-      near = nearest_word(analysis, analysis_words)
-      if (near == '') then
-        near = '.'
+      hint = nearest_word(analysis, analysis_words)
+      if (hint == '') then
+        hint = '.'
       else
-        near = ', did you mean '//near//'?'
+        hint = ', did you mean '//hint//'?'
       end if
-      call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//near// &
+      call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//hint// &
                 ' The analyses are '//join(analysis_words, ', '))
       return
     end if

@@ -18,8 +18,7 @@ module gfb_edge_start
   use gfb_newton, only: newton_settings_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at, guess_position
-  use gfb_start_problem, only: start_problem_type, with_same_edges, settings_with_fixed_edge, clearance_of, &
-                               with_fixed_edges, shortest_trial
+  use gfb_start_problem, only: start_problem_type, settings_with_fixed_edge, clearance_of, with_fixed_edges, shortest_trial
   use gfb_saved_state, only: saved_state_type
   use gfb_soft_contact_start, only: approach, try_soft_contacts, usual_contacts
   implicit none (type)
@@ -78,16 +77,18 @@ contains
     end associate
   end subroutine release_edges
 
-  !> A point with the edges of some pads released, and the others as they are.
-  pure function without_holds(point, first, last) result(free)
-    type(operating_point_type), intent(in) :: point
-    integer, intent(in) :: first, last !! numbers of the pads
+  !> The target with a pad's edge released, and the others as they are.
+  pure function with_released_edge(problem, pad) result(free)
+    type(start_problem_type), intent(in) :: problem
+    integer, intent(in) :: pad !! its number
     type(operating_point_type) :: free
 
-    free = point
-    free%edge_hold(first:last) = 0.0_wp
-    free%edge_height(first:last) = 0.0_wp
-  end function without_holds
+    free = problem%target
+    free%edge_hold = problem%bearing%point%edge_hold
+    free%edge_height = problem%bearing%point%edge_height
+    free%edge_hold(pad) = 0.0_wp
+    free%edge_height(pad) = 0.0_wp
+  end function with_released_edge
 
   !> At the target: releases the edge of a pad where it stays by itself.
   subroutine release_edge(problem, pad, report, ends)
@@ -102,7 +103,7 @@ contains
     ! It moves the way the film presses it.
     drawn_up = edge_force(problem%bearing, pad) < 0.0_wp
     highest = merge(resting, 0.0_wp, drawn_up)
-    call release(problem, without_holds(with_same_edges(problem), pad, pad), problem%newton%settings, &
+    call release(problem, with_released_edge(problem, pad), problem%newton%settings, &
                  [merge(low_edge, lowest, drawn_up), highest]*clearance_of(problem%bearing), report)
     if (.not. report%converged()) call seek_height(problem, pad, settings_with_fixed_edge(problem%settings), report, ends)
   end subroutine release_edge
@@ -257,7 +258,7 @@ contains
       report%ending = path_lost(report%reason())
       if (abs(force_next) > least_fall*tried) cycle
       tried = abs(force_next)
-      call release(problem, without_holds(with_same_edges(problem), pad, pad), wanted, height, report)
+      call release(problem, with_released_edge(problem, pad), wanted, height, report)
       if (report%converged()) exit
     end do
   end subroutine release_between
@@ -342,7 +343,6 @@ contains
     logical, intent(out) :: ends !! there is no answer
     type(path_settings_type) :: settings
     type(operating_point_type) :: easier
-    logical :: bends
     integer :: number
 
     ends = .false.
@@ -358,13 +358,12 @@ contains
     if (report%converged() .and. number > 1) report%ending = path_lost('')
     if (report%converged() .and. any(problem%bearing%point%edge_hold > 0.0_wp)) then
       call release_edges(problem, report, ends)
-      bends = edge_bends(problem%bearing)
-      if (ends .and. bends) call try_with_bent_edge(problem, report, ends)
+      if (ends) call try_with_bent_edge(problem, report, ends)
     end if
   end subroutine try_free_edge
 
-  !> An edge that is drawn up where it is kept straight may yet rest with its middle lower than its ends: without any hold
-  !> there is one more trial before it is refused.
+  !> An edge that is drawn up where it is kept straight may yet rest with its middle lower than its ends, where it can bend:
+  !> without any hold there is one more trial before it is refused.
   subroutine try_with_bent_edge(problem, report, ends)
     type(start_problem_type), intent(inout) :: problem
     type(path_report_type), intent(inout) :: report !! of a straight edge; replaced where there is an answer
@@ -372,6 +371,7 @@ contains
     type(path_report_type) :: bent
     logical :: bent_ends
 
+    if (.not. edge_bends(problem%bearing)) return
     call problem%newton%log%detail('the free edge may bend')
     call try_soft_contacts(problem, usual_contacts, bent, bent_ends)
     if (bent%converged()) then

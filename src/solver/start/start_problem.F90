@@ -10,7 +10,7 @@ module gfb_start_problem
   use gfb_ending, only: path_settings_type, path_report_type
   implicit none (type)
   private
-  public :: with_fixed_edges, with_same_edges, settings_with_fixed_edge, clearance_of
+  public :: with_fixed_edges, settings_with_fixed_edge, clearance_of
   public :: trial_settings, drop_bearing, count_spent
 
   integer, parameter, public :: by_load = 1 !! before the shaft where the load is larger than the film's force, else after
@@ -62,16 +62,6 @@ contains
     target%edge_hold(:size(problem%bearing%pad)) = hold_share*problem%bearing%force_scale()/clearance_of(problem%bearing)
     target%edge_height = 0.0_wp
   end function with_fixed_edges
-
-  !> The target with the edges fixed that are fixed now.
-  pure function with_same_edges(problem) result(target)
-    type(start_problem_type), intent(in) :: problem
-    type(operating_point_type) :: target
-
-    target = problem%target
-    target%edge_hold = problem%bearing%point%edge_hold
-    target%edge_height = problem%bearing%point%edge_height
-  end function with_same_edges
 
   !> Limits of a path along which the edge is fixed.
   pure function settings_with_fixed_edge(settings) result(fixed)

@@ -4,7 +4,7 @@
 module gfb_periodic
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
   use gfb_kinds, only: wp
-  use gfb_units, only: pi
+  use gfb_units, only: pi, micrometres
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
@@ -60,7 +60,6 @@ module gfb_periodic
     procedure :: add_arrays => add_orbit_arrays
   end type orbit_table_type
 
-  real(wp), parameter :: micro = 1.0e6_wp
   real(wp), parameter :: known = 2.0e-5_wp !! error of a multiplier: that of differences of the map [1]
 
   real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp] !! tolerances of a step of time: residual, step [1]
@@ -249,9 +248,9 @@ contains
     character(len=*), intent(in) :: loss !! of its stability, or none
     character(len=:), allocatable :: words
 
-    words = 'orbit '//text(extent_of(orbit%place(1, :))*micro, 4)//' x '//text(extent_of(orbit%place(2, :))*micro, 4)// &
+    words = 'orbit '//text(extent_of(orbit%place(1, :))*micrometres, 4)//' x '//text(extent_of(orbit%place(2, :))*micrometres, 4)// &
             ' um, over C '//text(extent_of(orbit%place(1, :))/clearance, 3)//', frequency ratio ' &
-            //text(orbit%value(in_ratio), 6)//', smallest film '//text(orbit%value(in_gap)*micro, 4)// &
+            //text(orbit%value(in_ratio), 6)//', smallest film '//text(orbit%value(in_gap)*micrometres, 4)// &
             ' um'
     if (.not. ieee_is_nan(orbit%value(in_largest))) words = words//', largest multiplier '//text(orbit%value(in_largest), 5)
     if (loss /= '') words = words//': unstable, '//loss
