@@ -10,7 +10,7 @@ module gfb_maxwell_arm
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: arm_stiffness, arm_viscosity, arm_relaxed
+  public :: arm_stiffness, arm_stiffness_rate, arm_viscosity, arm_relaxed
 
   !> The arm beside each spring of an elastic foundation.
   type, public :: maxwell_arm_type
@@ -37,6 +37,14 @@ contains
     complex(wp) :: stiffness        !! [N/m3]
     stiffness = arm%stiffness*rate*arm%time/(1.0_wp + rate*arm%time)
   end function arm_stiffness
+
+  !> Its derivative, \( k_m \tau/(1 + \lambda\tau)^2 \).
+  elemental function arm_stiffness_rate(arm, rate) result(stiffness_rate)
+    type(maxwell_arm_type), intent(in) :: arm !! the arm
+    complex(wp), intent(in) :: rate !! lambda, not -1/tau [1/s]
+    complex(wp) :: stiffness_rate   !! [N s/m3]
+    stiffness_rate = arm%stiffness*arm%time/(1.0_wp + rate*arm%time)**2
+  end function arm_stiffness_rate
 
   !> The viscous damper that a step of time sees in place of the arm.
   !>

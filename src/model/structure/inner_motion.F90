@@ -28,7 +28,7 @@ module gfb_inner_motion
   use gfb_modal_step, only: modal_amplitude, modal_acceleration
   implicit none (type)
   private
-  public :: inner_block, add_to_pieces
+  public :: inner_block, inner_block_rate, add_to_pieces
 
   !> Modes inside the condensed pieces of one kind.
   type, public :: inner_modes_type
@@ -82,6 +82,25 @@ contains
       end associate
     end do
   end function inner_block
+
+  !> Its derivative by \( \lambda \).
+  pure function inner_block_rate(inner, rate, loss, loss_rate) result(block)
+    type(inner_modes_type), intent(in) :: inner !! of one kind
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), intent(in) :: loss, loss_rate !! l of the stiffness, dl/d lambda [1], [s]
+    complex(wp) :: block(size(inner%coupling, 1), size(inner%coupling, 1))
+    complex(wp) :: divisor
+    integer :: i
+
+    block = 0.0_wp
+    do i = 1, size(inner%eigenvalue)
+      divisor = inner%eigenvalue(i)*(1.0_wp + loss) + rate**2
+      associate (m => inner%coupling(:, i))
+        block = block - (4.0_wp*rate**3/divisor - rate**4*(inner%eigenvalue(i)*loss_rate + 2.0_wp*rate)/divisor**2)* &
+          spread(m, 2, size(m))*spread(m, 1, size(m))
+      end associate
+    end do
+  end function inner_block_rate
 
   !> Adds a block to a matrix at the retained unknowns of every piece of a kind.
   subroutine add_to_pieces(inner, block, matrix)

@@ -29,13 +29,15 @@ module gfb_dynamic_response
   use gfb_contacts_in_motion, only: stick_contacts
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_film_rates, only: squeeze, squeeze_by_gap, flow_by_gap, fill_film, fill_springs, squeeze_column
-  use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, dissipates, destroy_equations
+  use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, combine_rate, dissipates, &
+                                     destroy_equations
   use gfb_direct_solver, only: failure_in_words
   use gfb_complex_factors, only: complex_factors_type, create_complex_factors, factor_complex, solve_complex, &
                                  destroy_complex_factors, keep_entries
   implicit none (type)
   private
-  public :: linearise_steady, measure_asperities, create_response, find_coefficients, response_failure, factor_part, solve_part, forces_of, destroy_response
+  public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, response_failure, factor_part, &
+            solve_part, forces_of, destroy_response
 
   !> of a journal's motions
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
@@ -56,7 +58,7 @@ module gfb_dynamic_response
     type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
     type(tVec) :: steady_column(journal_motions), squeeze_column(journal_motions)
-    type(tVec) :: one, other !! work space
+    type(tVec) :: one, other, rise(4) !! work space
     type(bearing_system_type), allocatable :: opposite_bearing !! of tilts, where its foil is another
     type(dynamic_response_type), allocatable :: opposite       !! of that
     real(wp), allocatable, private :: solid_rate(:) !! slope of the asperities' pressure over the gap [Pa/m]
@@ -205,6 +207,9 @@ contains
     call complete_equations(bearing, vibration, response%equations)
     PetscCallA(VecDuplicate(bearing%state, response%one, ierr))
     PetscCallA(VecDuplicate(bearing%state, response%other, ierr))
+    do k = 1, size(response%rise)
+      PetscCallA(VecDuplicate(bearing%state, response%rise(k), ierr))
+    end do
     do k = 1, journal_motions
       PetscCallA(VecDuplicate(bearing%state, response%steady_column(k), ierr))
       PetscCallA(VecDuplicate(bearing%state, response%squeeze_column(k), ierr))
@@ -357,6 +362,30 @@ contains
     end associate
   end subroutine find_coefficients
 
+  !> Z of a part's motions and its derivative by \( \lambda \), with one factorization.
+  subroutine find_sample(bearing, response, number, rate, value, slope, found)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it
+    integer, intent(in) :: number !! of its part
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), intent(out) :: value(:, :) !! (force, motion) Z of the part's coordinates [SI]
+    complex(wp), intent(out) :: slope(:, :) !! its derivative [SI]
+    logical, intent(out) :: found !! else the matrix cannot be factorized
+    complex(wp), dimension(journal_motions, journal_motions) :: z, dz
+
+    z = 0.0_wp
+    dz = 0.0_wp
+    call combine(response%equations, rate)
+    call factor_part(response, number, found)
+    if (.not. found) return
+    call combine_rate(response%equations, rate)
+    associate (part => response%part(number))
+      call solve_part(bearing, response, rate, journal_motions, part, z, found, dz)
+      value = z(part%coordinate, part%coordinate)
+      slope = dz(part%coordinate, part%coordinate)
+    end associate
+  end subroutine find_sample
+
   !> Why the last coefficients were not found.
   function response_failure(response) result(words)
     type(dynamic_response_type), intent(in) :: response !! that was asked
@@ -381,7 +410,7 @@ contains
   end subroutine factor_part
 
   !> Forces of a part's motions, with the factors there are.
-  subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found)
+  subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found, slope)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(in) :: response !! of it; `one` and `other` keep minus the last motion's change
     complex(wp), intent(in) :: rate   !! lambda [1/s]
@@ -389,6 +418,8 @@ contains
     type(part_type), intent(in) :: part !! of the response, factorized
     complex(wp), intent(inout) :: coefficient(:, :) !! (force, motion) [SI]
     logical, intent(out) :: found !! all were solved
+    !> gets the derivatives by lambda, where that of the matrix was combined last [SI]
+    complex(wp), intent(inout), optional :: slope(:, :)
     PetscErrorCode :: ierr
     logical :: solved
     integer :: i
@@ -405,9 +436,39 @@ contains
         ! The answer is minus the change, as the force is.
         coefficient(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, 1.0_wp, one), &
                                                 forces_of(bearing, response, part, k, 0.0_wp, other), wp)
+        if (.not. present(slope)) cycle
+        call solve_rise(response, part, k, solved)
+        if (.not. solved) found = .false.
+        slope(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, 0.0_wp, response%rise(1)), &
+                                          forces_of(bearing, response, part, k, 0.0_wp, response%rise(2)), wp)
       end associate
     end do
   end subroutine solve_part
+
+  !> How minus a change of the unknowns, y, rises with \( \lambda \): from \( A y = f_q + \lambda c_q \) follows
+  !> \( A y' = c_q - A' y \).
+  subroutine solve_rise(response, part, coordinate, solved)
+    type(dynamic_response_type), intent(in) :: response !! with A' combined; y in `one` and `other`, y' goes into `rise`
+    type(part_type), intent(in) :: part !! of the response, factorized
+    integer, intent(in) :: coordinate !! that moves
+    logical, intent(out) :: solved
+    PetscErrorCode :: ierr
+
+    associate (re => response%equations%real_part, im => response%equations%imaginary_part, one => response%one, &
+               other => response%other, rise => response%rise)
+      PetscCallA(MatMult(re, one, rise(1), ierr))
+      PetscCallA(MatMult(im, other, rise(3), ierr))
+      PetscCallA(VecAYPX(rise(1), -1.0_wp, response%squeeze_column(coordinate), ierr))
+      PetscCallA(VecAXPY(rise(1), 1.0_wp, rise(3), ierr))
+      PetscCallA(MatMult(re, other, rise(2), ierr))
+      PetscCallA(MatMult(im, one, rise(4), ierr))
+      PetscCallA(VecAXPY(rise(2), 1.0_wp, rise(4), ierr))
+      PetscCallA(VecScale(rise(2), -1.0_wp, ierr))
+      call keep_entries(rise(1), part%kept)
+      call keep_entries(rise(2), part%kept)
+      call solve_complex(part%factors, rise(1), rise(2), solved)
+    end associate
+  end subroutine solve_rise
 
   !> Weighted pressures of minus a change of the unknowns, with the asperities'.
   function forces_of(bearing, response, part, coordinate, motion, change) result(force)
@@ -470,6 +531,9 @@ contains
     end do
     PetscCallA(VecDestroy(response%one, ierr))
     PetscCallA(VecDestroy(response%other, ierr))
+    do i = 1, size(response%rise)
+      PetscCallA(VecDestroy(response%rise(i), ierr))
+    end do
     call destroy_equations(response%equations)
   end subroutine destroy_response
 end module gfb_dynamic_response

@@ -24,11 +24,11 @@
 module gfb_vibration_equations
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_inner_motion, only: inner_modes_type, inner_block, add_to_pieces
-  use gfb_maxwell_arm, only: maxwell_arm_type, arm_stiffness
+  use gfb_inner_motion, only: inner_modes_type, inner_block, inner_block_rate, add_to_pieces
+  use gfb_maxwell_arm, only: maxwell_arm_type, arm_stiffness, arm_stiffness_rate
   implicit none (type)
   private
-  public :: add_inertia, destroy_inertia, combine, dissipates, destroy_equations
+  public :: add_inertia, destroy_inertia, combine, combine_rate, weights_at, weight_rates_at, dissipates, destroy_equations
 
   !> The mass, or why there is none.
   type, public :: foil_inertia_type
@@ -52,6 +52,14 @@ module gfb_vibration_equations
     type(maxwell_arm_type) :: arm       !! beside its springs, its stiffness over theirs [1]
   end type vibration_type
 
+  !> What the matrices are multiplied with in a motion \( e^{\lambda t} \), or the derivatives of that by \( \lambda \).
+  type, public :: weights_type
+    complex(wp) :: squeeze, mass   !! lambda, lambda squared [1/s], [1/s2]
+    complex(wp) :: springs         !! l, what the foil adds to its stiffness, over it [1]
+    complex(wp) :: flow_by_gap     !! of local springs 1/(1 + l) - 1 [1]
+    complex(wp) :: squeeze_by_gap  !! the same times lambda [1/s]
+  end type weights_type
+
   !> Derivatives of the equations by the unknowns.
   type, public :: vibration_equations_type
     type(vibration_type) :: vibration
@@ -64,27 +72,35 @@ module gfb_vibration_equations
 
 contains
 
-  !> Adds what the mass does in a motion \( e^{\lambda t} \).
-  subroutine add_inertia(inertia, rate, loss, real_part, imaginary_part)
+  !> Adds what the mass does in a motion \( e^{\lambda t} \), or the derivative of that.
+  subroutine add_inertia(inertia, rate, weights, real_part, imaginary_part, weight_rates)
     type(foil_inertia_type), intent(in) :: inertia !! that was created
     complex(wp), intent(in) :: rate !! lambda [1/s]
-    complex(wp), intent(in) :: loss !! l of the stiffness [1]
+    type(weights_type), intent(in) :: weights !! there
     Mat, intent(in) :: real_part, imaginary_part !! of the bearing's matrix, scaled
+    type(weights_type), intent(in), optional :: weight_rates !! the derivative is added, with these
     type(tMat) :: part(2)
     complex(wp), allocatable :: block(:, :)
+    complex(wp) :: mass
     PetscErrorCode :: ierr
     integer :: i
 
     if (.not. inertia%present) return
-    PetscCallA(MatAXPY(real_part, real(rate**2, wp), inertia%mass, SAME_NONZERO_PATTERN, ierr))
-    PetscCallA(MatAXPY(imaginary_part, aimag(rate**2), inertia%mass, SAME_NONZERO_PATTERN, ierr))
+    mass = weights%mass
+    if (present(weight_rates)) mass = weight_rates%mass
+    PetscCallA(MatAXPY(real_part, real(mass, wp), inertia%mass, SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatAXPY(imaginary_part, aimag(mass), inertia%mass, SAME_NONZERO_PATTERN, ierr))
     if (.not. inertia%has_modes .or. inertia%skips_modes) return
     do i = 1, 2
       PetscCallA(MatDuplicate(inertia%mass, MAT_DO_NOT_COPY_VALUES, part(i), ierr))
       PetscCallA(MatSetOption(part(i), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE, ierr)) ! round-off, as the mass has
     end do
     do i = 1, size(inertia%inner)
-      block = inner_block(inertia%inner(i), rate, loss)
+      if (present(weight_rates)) then
+        block = inner_block_rate(inertia%inner(i), rate, weights%springs, weight_rates%springs)
+      else
+        block = inner_block(inertia%inner(i), rate, weights%springs)
+      end if
       call add_to_pieces(inertia%inner(i), real(block, wp), part(1))
       call add_to_pieces(inertia%inner(i), aimag(block), part(2))
     end do
@@ -121,47 +137,91 @@ contains
     end associate
   end function dissipates
 
-  !> What a foil adds to its stiffness under motions \( e^{\lambda t} \), over the stiffness.
-  pure function loss_at(vibration, rate) result(loss)
+  !> Weights of the matrices in a motion \( e^{\lambda t} \).
+  pure function weights_at(vibration, rate) result(weights)
     type(vibration_type), intent(in) :: vibration !! of the foil
     complex(wp), intent(in) :: rate !! lambda [1/s]
-    complex(wp) :: loss             !! [1]
+    type(weights_type) :: weights
 
-    loss = cmplx(0.0_wp, sign(vibration%loss_factor, aimag(rate)), wp) + rate*vibration%damping_time
-    if (vibration%arm%is_present()) loss = loss + arm_stiffness(vibration%arm, rate)
-  end function loss_at
+    weights%squeeze = rate
+    weights%mass = rate**2
+    weights%springs = cmplx(0.0_wp, sign(vibration%loss_factor, aimag(rate)), wp) + rate*vibration%damping_time
+    if (vibration%arm%is_present()) weights%springs = weights%springs + arm_stiffness(vibration%arm, rate)
+    weights%flow_by_gap = 1.0_wp/(1.0_wp + weights%springs) - 1.0_wp
+    weights%squeeze_by_gap = rate*weights%flow_by_gap
+  end function weights_at
+
+  !> Their derivatives by \( \lambda \); a loss factor stays what it is.
+  pure function weight_rates_at(vibration, rate) result(rates)
+    type(vibration_type), intent(in) :: vibration !! of the foil
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    type(weights_type) :: rates
+    type(weights_type) :: weights
+
+    weights = weights_at(vibration, rate)
+    rates%squeeze = 1.0_wp
+    rates%mass = 2.0_wp*rate
+    rates%springs = vibration%damping_time
+    if (vibration%arm%is_present()) rates%springs = rates%springs + arm_stiffness_rate(vibration%arm, rate)
+    rates%flow_by_gap = -rates%springs/(1.0_wp + weights%springs)**2
+    rates%squeeze_by_gap = weights%flow_by_gap + rate*rates%flow_by_gap
+  end function weight_rates_at
 
   !> Real and imaginary part of the matrix of motions \( e^{\lambda t} \).
   subroutine combine(equations, rate)
     type(vibration_equations_type), intent(in) :: equations !! complete ones
     complex(wp), intent(in) :: rate !! lambda [1/s]
-    complex(wp) :: loss, softening
+    type(weights_type) :: weights
     PetscErrorCode :: ierr
 
+    weights = weights_at(equations%vibration, rate)
     PetscCallA(MatCopy(equations%steady, equations%real_part, SAME_NONZERO_PATTERN, ierr))
     PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
-    call add_multiple(rate, equations%squeeze)
-    loss = loss_at(equations%vibration, rate)
-    call add_inertia(equations%inertia, rate, loss, equations%real_part, equations%imaginary_part)
+    call add_multiple(equations, weights%squeeze, equations%squeeze)
+    call add_inertia(equations%inertia, rate, weights, equations%real_part, equations%imaginary_part)
+    call add_losses(equations, weights)
+  end subroutine combine
+
+  !> The derivative of that matrix by \( \lambda \), in its place.
+  subroutine combine_rate(equations, rate)
+    type(vibration_equations_type), intent(in) :: equations !! complete ones
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    type(weights_type) :: rates
+    PetscErrorCode :: ierr
+
+    rates = weight_rates_at(equations%vibration, rate)
+    PetscCallA(MatZeroEntries(equations%real_part, ierr))
+    PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
+    call add_multiple(equations, rates%squeeze, equations%squeeze)
+    call add_inertia(equations%inertia, rate, weights_at(equations%vibration, rate), equations%real_part, &
+                     equations%imaginary_part, rates)
+    call add_losses(equations, rates)
+  end subroutine combine_rate
+
+  !> Adds what springs with losses do.
+  subroutine add_losses(equations, weights)
+    type(vibration_equations_type), intent(in) :: equations
+    type(weights_type), intent(in) :: weights !! or their derivatives
+
     if (.not. dissipates(equations)) return
     if (equations%local_springs) then
-      softening = 1.0_wp/(1.0_wp + loss) - 1.0_wp
-      call add_multiple(softening, equations%flow_by_gap)
-      call add_multiple(rate*softening, equations%squeeze_by_gap)
+      call add_multiple(equations, weights%flow_by_gap, equations%flow_by_gap)
+      call add_multiple(equations, weights%squeeze_by_gap, equations%squeeze_by_gap)
     else
-      call add_multiple(loss, equations%springs)
+      call add_multiple(equations, weights%springs, equations%springs)
     end if
+  end subroutine add_losses
 
-  contains
+  !> Adds a multiple of a matrix to those that are combined.
+  subroutine add_multiple(equations, factor, matrix)
+    type(vibration_equations_type), intent(in) :: equations
+    complex(wp), intent(in) :: factor
+    Mat, intent(in) :: matrix
+    PetscErrorCode :: ierr
 
-    subroutine add_multiple(factor, matrix)
-      complex(wp), intent(in) :: factor
-      Mat, intent(in) :: matrix
-
-      PetscCallA(MatAXPY(equations%real_part, real(factor, wp), matrix, SAME_NONZERO_PATTERN, ierr))
-      PetscCallA(MatAXPY(equations%imaginary_part, aimag(factor), matrix, SAME_NONZERO_PATTERN, ierr))
-    end subroutine add_multiple
-  end subroutine combine
+    PetscCallA(MatAXPY(equations%real_part, real(factor, wp), matrix, SAME_NONZERO_PATTERN, ierr))
+    PetscCallA(MatAXPY(equations%imaginary_part, aimag(factor), matrix, SAME_NONZERO_PATTERN, ierr))
+  end subroutine add_multiple
 
   !> Frees what PETSc holds.
   subroutine destroy_equations(equations)

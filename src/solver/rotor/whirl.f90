@@ -9,10 +9,12 @@
 !> without any mass): the critical mass is zero.
 module gfb_whirl
   use gfb_kinds, only: wp
-  use gfb_film_surface, only: journal_motions
+  use gfb_run_log, only: run_log_type
   use gfb_root_bracket, only: root_bracket_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients
+  use gfb_dynamic_response, only: dynamic_response_type
+  use gfb_frequency_response, only: frequency_response_type, cover_part, add_sample
+  use gfb_rational_response, only: rational_response_type
   implicit none (type, external)
   private
   public :: find_critical_mass, planar_eigenvalues
@@ -22,6 +24,10 @@ module gfb_whirl
   real(wp), parameter :: highest = 1.2_wp     !! [1]
   real(wp), parameter :: tolerance = 1.0e-12_wp !! of a whirl's frequency over the speed [1]
   integer, parameter :: most_trials = 40      !! to find one
+  integer, parameter :: translations = 1      !! part of a response that holds them
+  integer, parameter :: most_samples = 6      !! taken where the whirl is
+  !> distance from the last one over which it is exact to its square [1]
+  real(wp), parameter :: near_sample = 1.0e-6_wp
 
   !> The whirl that sets in first.
   type, public :: whirl_type
@@ -33,46 +39,63 @@ module gfb_whirl
 
 contains
 
-  !> Looks for whirl between 0.05 and 1.2 times the speed.
-  subroutine find_critical_mass(bearing, response, whirl)
+  !> Looks for whirl between 0.05 and 1.2 times the speed. What decides is solved where the whirl
+  !> is, not only interpolated.
+  subroutine find_critical_mass(bearing, response, log, model, whirl)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
+    type(run_log_type), intent(in) :: log !! where waiting lines go
+    !> samples so far; gets those that are needed here
+    type(frequency_response_type), intent(inout) :: model
     type(whirl_type), intent(out) :: whirl !! what was found
-    complex(wp) :: before(2), here(2)
-    real(wp) :: ratio, last
-    integer :: i, branch
+    real(wp) :: ratio(points), before
+    integer :: i
 
-    last = lowest
-    do i = 1, points
-      ratio = lowest*(highest/lowest)**(real(i - 1, wp)/real(points - 1, wp))
-      call eigenvalues_at(bearing, response, ratio, here, whirl%searched)
+    ratio = [(lowest*(highest/lowest)**(real(i - 1, wp)/real(points - 1, wp)), i=1, points)]
+    call cover_part(bearing, response, translations, ratio*bearing%point%speed, log, model, &
+      whirl%searched)
+    do i = 1, most_samples
       if (.not. whirl%searched) return
-      if (i > 1) then
-        here = sorted(here, before)
-        do branch = 1, 2
-          if (aimag(before(branch))*aimag(here(branch)) > 0.0_wp) cycle
-          call refine(bearing, response, [last, ratio], [before(branch), here(branch)], whirl)
-          if (.not. whirl%searched) return
-        end do
-      end if
-      before = here
-      last = ratio
+      before = whirl%ratio
+      whirl = smallest_whirl(model%part(translations), ratio, bearing%point%speed)
+      if (.not. whirl%found .or. abs(whirl%ratio - before) <= near_sample) return
+      call add_sample(bearing, response, translations, whirl%ratio*bearing%point%speed, model, &
+        whirl%searched)
     end do
   end subroutine find_critical_mass
 
-  !> Eigenvalues of the translations' coefficients at a frequency over the speed.
-  subroutine eigenvalues_at(bearing, response, ratio, kappa, found)
-    type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(inout) :: response
-    real(wp), intent(in) :: ratio !! [1]
-    complex(wp), intent(out) :: kappa(2) !! [N/m]
-    logical, intent(out) :: found
-    complex(wp) :: coefficient(journal_motions, journal_motions)
+  !> The smallest mass that whirls between the first and the last of some frequencies.
+  pure function smallest_whirl(model, ratio, speed) result(whirl)
+    type(rational_response_type), intent(in) :: model !! of the translations
+    !> of frequencies to the speed, between two of which a branch has one whirl [1]
+    real(wp), intent(in) :: ratio(:)
+    real(wp), intent(in) :: speed    !! [rad/s]
+    type(whirl_type) :: whirl
+    complex(wp) :: before(2), here(2)
+    integer :: i, branch
 
-    call find_coefficients(bearing, response, cmplx(0.0_wp, ratio*bearing%point%speed, wp), &
-                           coefficient, found, only_translations=.true.)
+    whirl%searched = .true.
+    before = eigenvalues_at(model, ratio(1)*speed)
+    do i = 2, size(ratio)
+      here = sorted(eigenvalues_at(model, ratio(i)*speed), before)
+      do branch = 1, 2
+        if (aimag(before(branch))*aimag(here(branch)) > 0.0_wp) cycle
+        call refine(model, speed, ratio(i - 1:i), [before(branch), here(branch)], whirl)
+      end do
+      before = here
+    end do
+  end function smallest_whirl
+
+  !> Eigenvalues of the translations' coefficients at a frequency.
+  pure function eigenvalues_at(model, frequency) result(kappa)
+    type(rational_response_type), intent(in) :: model
+    real(wp), intent(in) :: frequency !! [rad/s]
+    complex(wp) :: kappa(2) !! [N/m]
+    complex(wp), allocatable :: coefficient(:, :)
+
+    coefficient = model%at(frequency)
     kappa = planar_eigenvalues(coefficient(:2, :2))
-  end subroutine eigenvalues_at
+  end function eigenvalues_at
 
   !> Eigenvalues of a 2 x 2 matrix.
   pure function planar_eigenvalues(matrix) result(kappa)
@@ -96,9 +119,9 @@ contains
 
   !> Finds where a branch's imaginary part vanishes between two frequencies, by false position with
   !> halved weights (Illinois); a smaller mass than the one found so far is kept.
-  subroutine refine(bearing, response, ratio, branch, whirl)
-    type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(inout) :: response
+  pure subroutine refine(model, speed, ratio, branch, whirl)
+    type(rational_response_type), intent(in) :: model
+    real(wp), intent(in) :: speed        !! [rad/s]
     real(wp), intent(in) :: ratio(2)     !! of both ends, over the speed [1]
     complex(wp), intent(in) :: branch(2) !! eigenvalue there [N/m]
     type(whirl_type), intent(inout) :: whirl
@@ -114,14 +137,13 @@ contains
       if (abs(bracket%at_low - bracket%at_high) <= 0.0_wp .or. &
           abs(bracket%high - bracket%low) <= tolerance) exit
       trial = bracket%trial()
-      call eigenvalues_at(bearing, response, trial, kappa, whirl%searched)
-      if (.not. whirl%searched) return
+      kappa = eigenvalues_at(model, trial*speed)
       here = near(kappa, branch(1) + (branch(2) - branch(1))* &
                      (trial - ratio(1))/(ratio(2) - ratio(1)))
       if (abs(aimag(here)) <= tolerance*maxval(abs(branch))) exit
       call bracket%narrow(trial, aimag(here))
     end do
-    mass = max(0.0_wp, real(here, wp)/(trial*bearing%point%speed)**2)
+    mass = max(0.0_wp, real(here, wp)/(trial*speed)**2)
     if (whirl%found .and. mass >= whirl%critical_mass) return
     whirl%found = .true.
     whirl%critical_mass = mass

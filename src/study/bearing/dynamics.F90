@@ -17,7 +17,8 @@ module gfb_dynamics
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_builder, only: build_opposite
   use gfb_newton, only: newton_type, show_enlargements
-  use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, response_failure, destroy_response
+  use gfb_dynamic_response, only: dynamic_response_type, create_response, response_failure, destroy_response
+  use gfb_frequency_response, only: frequency_response_type, cover_frequencies, coefficients_at
   use gfb_vibration_equations, only: vibration_type
   use gfb_foil_mass_choice, only: choose_mass, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
@@ -50,6 +51,7 @@ contains
     type(quantity_type), allocatable, intent(out) :: found(:)
     type(rotor_answer_type) :: rotor
     type(dynamic_response_type) :: response
+    type(frequency_response_type) :: model
     type(dynamics_point_type) :: point
     logical :: first
 
@@ -62,7 +64,7 @@ contains
     call start_response(scene, bearing, response, record%problem)
     if (allocated(record%problem)) return
     call describe_mass(scene, log, response%equations%inertia, first)
-    call fill_coefficients(scene, log, bearing, response, point, record%problem)
+    call fill_coefficients(scene, log, bearing, response, model, point, record%problem)
     if (.not. allocated(record%problem)) then
       call add_entries('stiffness_', stiffness_of(point, 1), found)
       call add_entries('damping_', damping_of(point, 1), found)
@@ -72,7 +74,7 @@ contains
       call fill_amplitudes(scene, log, bearing, response, point, record%problem)
     end if
     if (.not. allocated(record%problem) .and. scene%dynamics%stability .and. bearing%point%speed > 0.0_wp) then
-      call add_whirl(log, bearing, response, found, record%problem)
+      call add_whirl(log, bearing, response, model, found, record%problem)
       if (scene%rotor%present .and. .not. allocated(record%problem)) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
     end if
     record%point = [record%point, point]
@@ -85,11 +87,12 @@ contains
   end subroutine find_dynamics
 
   !> Stiffness and damping at the frequencies of the scene.
-  subroutine fill_coefficients(scene, log, bearing, response, point, problem)
+  subroutine fill_coefficients(scene, log, bearing, response, model, point, problem)
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
+    type(frequency_response_type), intent(inout) :: model !! gets the samples that the frequencies need
     type(dynamics_point_type), intent(inout) :: point
     character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
     logical :: made
@@ -97,15 +100,12 @@ contains
 
     point%frequency = frequencies_at(scene%dynamics, bearing%point%speed)
     allocate (point%coefficient(journal_motions, journal_motions, size(point%frequency)), source=(0.0_wp, 0.0_wp))
+    call cover_frequencies(bearing, response, point%frequency, log, model, made)
+    if (.not. made) problem = 'the vibration at '//text(model%failed)//' rad/s: '//response_failure(response)
+    if (.not. made) return
     do i = 1, size(point%frequency)
-      call log%is_at('frequency '//text(i)//' of '//text(size(point%frequency)), real(i - 1, wp)/real(size(point%frequency), wp))
-      call log%waiting('')
-      call find_coefficients(bearing, response, cmplx(0.0_wp, point%frequency(i), wp), point%coefficient(:, :, i), made)
-      if (made) cycle
-      problem = 'the vibration at '//text(point%frequency(i))//' rad/s: '//response_failure(response)
-      return
+      point%coefficient(:, :, i) = coefficients_at(response, model, point%frequency(i))
     end do
-    call log%is_at('')
   end subroutine fill_coefficients
 
   !> Stiffness and damping at the amplitudes of the scene, each found from the one before.
@@ -229,10 +229,11 @@ contains
     type(whirl_type), intent(out) :: whirl !! what was found
     character(len=:), allocatable, intent(out) :: problem !! why it was not searched
     type(dynamic_response_type) :: response
+    type(frequency_response_type) :: model
 
     call create_response(bearing, vibration_of(scene), response)
     call choose_mass(scene, bearing, response)
-    call find_critical_mass(bearing, response, whirl)
+    call find_critical_mass(bearing, response, newton%log, model, whirl)
     if (.not. whirl%searched) problem = response_failure(response)
     call end_response(bearing, newton, response)
   end subroutine find_whirl
@@ -340,15 +341,16 @@ contains
   end subroutine add_entries
 
   !> Looks for the mass that whirls, where the shaft turns.
-  subroutine add_whirl(log, bearing, response, found, problem)
+  subroutine add_whirl(log, bearing, response, model, found, problem)
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
+    type(frequency_response_type), intent(inout) :: model !! of the frequencies that were asked for
     type(quantity_type), allocatable, intent(inout) :: found(:)
     character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
     type(whirl_type) :: whirl
 
-    call find_critical_mass(bearing, response, whirl)
+    call find_critical_mass(bearing, response, log, model, whirl)
     if (whirl%found) then
       call log%line('critical mass '//text(whirl%critical_mass, 5)//' kg on this bearing: heavier rigid shafts whirl, at '// &
                     text(whirl%ratio, 5)//' of the speed')
