@@ -4,17 +4,21 @@
     check_bad_input.py GFB_EXECUTABLE
 
 Each `*.nml` beside this script begins with comment lines `! expect: <part of the message>`, and may have a line
-`! messages: <their number>`, and `! options: ...` for the command line. gfb must end with status 1, say all of them on the error stream, and write no result. Mistakes
-that are no text files (a missing file, a folder, ...) are made in a temporary folder.
+`! messages: <their number>`, and `! options: ...` for the command line. gfb must refuse each with
+status 1, say all of them on the error stream, and write no result. One call reads all files of the
+same options, as a start takes longer than a file; a file of which that call says nothing, or not
+what it should, is given to a call of its own. So are mistakes that are no text files (a missing
+file, a folder, ...), which are made in a temporary folder.
 """
 
+import collections
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-LONGEST_MESSAGE = 20000  # bytes; nobody reads more
+LONGEST_MESSAGE = 20000  # bytes of one file; nobody reads more
 SECONDS = 60
 
 GOOD = """&bearing radius = 0.02, length = 0.04, clearance = 3.0e-5 /
@@ -33,6 +37,18 @@ def run(gfb, arguments, folder):
             done.stderr.decode("utf-8", "replace"))
 
 
+def mistaken(words, expected, messages):
+    """What is wrong with what gfb says of one file, a line each."""
+    wrong = [f"not said: {part}" for part in expected if part not in words]
+    if messages and messages[0] != len(words.splitlines()):
+        wrong.append(f"{len(words.splitlines())} messages, not {messages[0]}")
+    if "Fortran runtime" in words or "Backtrace" in words:
+        wrong.append("a crash")
+    if len(words) > LONGEST_MESSAGE:
+        wrong.append(f"{len(words)} bytes of message")
+    return wrong
+
+
 def complaints(gfb, arguments, expected, folder, status=1, messages=()):
     """What is wrong with gfb's answer, one a line; empty where all is as expected."""
     before = sorted(folder.iterdir())
@@ -40,18 +56,10 @@ def complaints(gfb, arguments, expected, folder, status=1, messages=()):
         found, _, words = run(gfb, arguments, folder)
     except subprocess.TimeoutExpired:
         return [f"no end after {SECONDS} s"]
-    wrong = []
-    if found != status:
-        wrong.append(f"status {found}, not {status}")
-    wrong += [f"not said: {part}" for part in expected if part not in words]
-    if messages and messages[0] != len(words.splitlines()):
-        wrong.append(f"{len(words.splitlines())} messages, not {messages[0]}")
+    wrong = [f"status {found}, not {status}"] if found != status else []
+    wrong += mistaken(words, expected, messages)
     if status and not words.strip():
         wrong.append("nothing on the error stream")
-    if "Fortran runtime" in words or "Backtrace" in words:
-        wrong.append("a crash")
-    if len(words) > LONGEST_MESSAGE:
-        wrong.append(f"{len(words)} bytes of message")
     new = [str(path.name) for path in sorted(folder.iterdir()) if path not in before]
     if new:
         wrong.append("left behind: " + ", ".join(new))
@@ -60,16 +68,60 @@ def complaints(gfb, arguments, expected, folder, status=1, messages=()):
     return wrong
 
 
+def said_together(gfb, options, paths, folder):
+    """What one call says of each of several files.
+
+    Nothing where it ends with another status than 1, or leaves something behind.
+    """
+    before = sorted(folder.iterdir())
+    arguments = ["--check", "--groups", "1", *options, *map(str, paths)]
+    try:
+        status, _, words = run(gfb, arguments, folder)
+    except subprocess.TimeoutExpired:
+        return {}
+    if status != 1 or sorted(folder.iterdir()) != before:
+        return {}
+    said = collections.defaultdict(str)
+    names = {str(path) for path in paths}
+    path = ""
+    for line in words.splitlines(keepends=True):
+        # A line that begins with no name goes on with the message before it.
+        begins = (line[:i] for i, letter in enumerate(line) if letter == ":")
+        path = next((name for name in begins if name in names), path)
+        said[path] += line
+    return said
+
+
 def files_with_mistakes():
-    """Name, arguments, expected parts and number of messages of the case files beside this script."""
+    """Options, path, expected parts and number of messages of the case files beside this script."""
     for path in sorted(HERE.glob("*.nml")):
         lines = path.read_text(encoding="utf-8").splitlines()
         expected = [line[len("! expect: "):] for line in lines if line.startswith("! expect: ")]
         if not expected:
             raise SystemExit(f"{path}: no line '! expect: ...'")
-        options = [word for line in lines if line.startswith("! options: ") for word in line.split()[2:]]
+        options = tuple(word for line in lines if line.startswith("! options: ")
+                        for word in line.split()[2:])
         number = [int(line.split()[2]) for line in lines if line.startswith("! messages: ")]
-        yield path.stem, ["--check", *options, str(path)], expected, *number
+        yield options, path, expected, number
+
+
+def check_files(gfb, folder):
+    """What is wrong with gfb's answers to the files beside this script, by their names.
+
+    And how many of them a call with others refused as it should.
+    """
+    wrong, together, tests = {}, 0, list(files_with_mistakes())
+    for options in sorted({options for options, *_ in tests}):
+        alike = [test for test in tests if test[0] == options]
+        said = said_together(gfb, options, [path for _, path, *_ in alike], folder)
+        for _, path, expected, number in alike:
+            if str(path) in said and not mistaken(said[str(path)], expected, number):
+                together += 1
+                wrong[path.stem] = []
+            else:
+                wrong[path.stem] = complaints(gfb, ["--check", *options, str(path)], expected,
+                                              folder, messages=number)
+    return wrong, together
 
 
 def places_with_mistakes(folder):
@@ -115,14 +167,16 @@ def main():
     passed = failed = 0
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        tests = list(files_with_mistakes()) + list(places_with_mistakes(folder))
+        tests = list(places_with_mistakes(folder))
         # A program that refuses everything would pass all the rest.
         wrong = {"the good case": complaints(gfb, ["--check", "good.nml"], [], folder, status=0)}
         for place in ("in_the_way/results", "in_the_way", "/proc/results"):  # the scene is right, the folder is not
             wrong[f"output {place}"] = complaints(gfb, ["--output", place, "good.nml"], [f"{place}: results cannot be"],
                                                   folder, status=3)
-        for test, arguments, expected, *number in tests:
-            wrong[test] = complaints(gfb, arguments, expected, folder, messages=number)
+        for test, arguments, expected in tests:
+            wrong[test] = complaints(gfb, arguments, expected, folder)
+        files, together = check_files(gfb, folder)
+        wrong |= files
     for test, lines in wrong.items():
         if lines:
             failed += 1
@@ -130,7 +184,7 @@ def main():
             print("".join(f"    {line}\n" for line in lines), end="")
         else:
             passed += 1
-    print(f"{passed} passed, {failed} failed")
+    print(f"{passed} passed, {failed} failed; {together} files were refused by a call with others")
     sys.exit(1 if failed else 0)
 
 

@@ -4,7 +4,9 @@
     damage.py GFB_EXECUTABLE CASE.nml [COUNT=200] [SEED=1]
 
 Whatever the damage, gfb must end with status 0 or 1 within 20 s, without a signal and without a
-Fortran run-time error. The damages are the same for the same seed.
+Fortran run-time error. The damages are the same for the same seed. One call reads all damaged files,
+a second one checks those that the first did not refuse; where a call is not in order, each of its
+files has a call of its own.
 """
 
 import collections
@@ -52,25 +54,69 @@ def damage(text, chance):
     return text[:at] + chance.choice(PIECES) + text[at:]
 
 
-def trouble(gfb, path, statuses):
-    """What is wrong with gfb's answer to one file; empty where nothing is."""
+def call(gfb, paths, folder):
+    """Status of a check of files, and its words; status None where it takes too long."""
+    groups = ["--groups", "1"] if len(paths) > 1 else []
     try:
-        done = subprocess.run([gfb, "--check", str(path)], cwd=path.parent, timeout=SECONDS,
-                              stdin=subprocess.DEVNULL, capture_output=True)
+        done = subprocess.run([gfb, "--check", *groups, *map(str, paths)], cwd=folder,
+                              timeout=SECONDS, stdin=subprocess.DEVNULL, capture_output=True)
     except subprocess.TimeoutExpired:
+        return None, "", ""
+    words = (stream.decode("utf-8", "replace") for stream in (done.stdout, done.stderr))
+    return done.returncode, *words
+
+
+def trouble(status, told, refused):
+    """What is wrong with an answer of gfb's; empty where nothing is."""
+    if status is None:
         return f"no end after {SECONDS} s"
-    statuses[done.returncode] += 1
-    words = (done.stdout + done.stderr).decode("utf-8", "replace")
-    if done.returncode not in (0, 1):
-        return f"status {done.returncode}: {words[-1000:]}"
+    words = told + refused
+    if status not in (0, 1):
+        return f"status {status}: {words[-1000:]}"
     for sign in ("Fortran runtime error", "Backtrace", "AddressSanitizer", "runtime error:"):
         if sign in words:
             return f"{sign}: {words[-1000:]}"
-    if done.returncode == 1 and not done.stderr.strip():
+    if status == 1 and not refused.strip():
         return "status 1 without a message"
-    if len(words) > LONGEST_MESSAGE:
-        return f"{len(words)} bytes of output"
     return ""
+
+
+def refused_together(gfb, paths, folder):
+    """The files that one call refuses; None where the call is not in order, or says too much."""
+    status, told, words = call(gfb, paths, folder)
+    if trouble(status, told, words) or len(words) > LONGEST_MESSAGE:
+        return None
+    lines = words.splitlines()
+    refused = [path for path in paths if any(line.startswith(f"{path}:") for line in lines)]
+    return None if bool(refused) != (status == 1) else refused
+
+
+def right_together(gfb, paths, folder):
+    """Whether one call says of each of the files that it is in order."""
+    status, told, words = call(gfb, paths, folder)
+    return (status == 0 and not trouble(status, told, words)
+            and all(f"{path} is in order" in told for path in paths))
+
+
+def check_alone(gfb, path, statuses):
+    """What is wrong with gfb's answer to one file; empty where nothing is."""
+    status, told, refused = call(gfb, [path], path.parent)
+    statuses[status] += 1
+    long = f"{len(told + refused)} bytes of output" if len(told + refused) > LONGEST_MESSAGE else ""
+    return trouble(status, told, refused) or long
+
+
+def check_all(gfb, paths, folder, statuses):
+    """What is wrong with gfb's answers, by the number of the file."""
+    refused = refused_together(gfb, paths, folder) or []
+    statuses[1] += len(refused)
+    right = [path for path in paths if path not in refused]
+    if refused and len(right) > 1 and right_together(gfb, right, folder):
+        statuses[0] += len(right)
+        right = []
+    wrong = {number: check_alone(gfb, path, statuses)
+             for number, path in enumerate(paths, 1) if path in right}
+    return {number: words for number, words in wrong.items() if words}
 
 
 def main():
@@ -82,20 +128,19 @@ def main():
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else 1
     chance = random.Random(seed)
     statuses = collections.Counter()
-    failed = 0
     with tempfile.TemporaryDirectory() as name:
-        path = pathlib.Path(name) / "damaged.nml"
-        for number in range(1, count + 1):
+        paths = [pathlib.Path(name)/f"damaged_{number}.nml" for number in range(1, count + 1)]
+        for path in paths:
             text = good
             for _ in range(chance.choice([1, 1, 1, 2, 3, 8])):
                 text = damage(text, chance)
             path.write_bytes(text)
-            wrong = trouble(gfb, path, statuses)
-            if wrong:
-                failed += 1
-                kept = pathlib.Path(tempfile.gettempdir()) / f"gfb_damage_{seed}_{number}.nml"
-                kept.write_bytes(text)
-                print(f"FAILED damage {number}, kept as {kept}: {wrong}")
+        wrong = check_all(gfb, paths, name, statuses)
+        for number, words in wrong.items():
+            kept = pathlib.Path(tempfile.gettempdir())/f"gfb_damage_{seed}_{number}.nml"
+            kept.write_bytes(paths[number - 1].read_bytes())
+            print(f"FAILED damage {number}, kept as {kept}: {words}")
+    failed = len(wrong)
     print(f"{statuses[0]} damaged files were still right, {statuses[1]} were refused")
     print(f"{count - failed} passed, {failed} failed")
     sys.exit(1 if failed else 0)

@@ -147,10 +147,14 @@ def check_f90nml(gfb, program):
                 found = echo(program, path)
                 if found != plain:
                     wrong.append(f"{path.name}: {found if found.startswith('status') else 'another echo'}")
-            done = subprocess.run([gfb, "--check", str(path)], stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
-                                  timeout=SECONDS, check=False)
-            if done.returncode:
-                wrong.append(f"{path.name}: gfb --check ends with {done.returncode}: {done.stderr[-500:]}")
+        sections = [path for path in written if path.name.startswith("sections_")]
+        done = subprocess.run([gfb, "--check", "--groups", "1", *map(str, sections)],
+                              stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
+                              timeout=SECONDS, check=False)
+        if done.returncode:
+            wrong.append(f"gfb --check ends with {done.returncode}: {done.stderr[-500:]}")
+        wrong += [f"{path.name}: gfb --check does not say that it is in order" for path in sections
+                  if f"{path} is in order" not in done.stdout]
     return wrong, len(written)
 
 

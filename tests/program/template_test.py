@@ -33,6 +33,7 @@ def wanted(text, group):
 
 def check_templates(checks, folder):
     """Every analysis has one; it runs as it is, without a warning, and with each group that it offers."""
+    offered = []
     for analysis in ANALYSES:
         status, text, wrong = call("--template", analysis, folder=folder)
         checks.that(f"--template {analysis}", status == 0 and not wrong and f"analysis = '{analysis}'" in text)
@@ -41,8 +42,15 @@ def check_templates(checks, folder):
         status, _, wrong = call("--strict", "--output", "there", f"{analysis}.nml", folder=folder)
         checks.that(f"{analysis}: runs unchanged {wrong}", status == 0 and (folder/f"there/{analysis}.h5").exists())
         for group in re.findall(r"^!&(\w+)$", text, re.M):
-            status, _, wrong = call("--check", "--strict", "-", folder=folder, given=wanted(text, group))
-            checks.that(f"{analysis}: with &{group} {wrong}", status == 0)
+            offered.append(f"{analysis}_with_{group}.nml")
+            (folder/offered[-1]).write_text(wanted(text, group), encoding="utf-8")
+    first = (folder/offered[0]).read_text(encoding="utf-8")
+    status, _, wrong = call("--check", "--strict", "-", folder=folder, given=first)
+    checks.that(f"{offered[0]} from the standard input {wrong}", status == 0)
+    status, told, wrong = call("--check", "--strict", "--groups", "1", *offered, folder=folder)
+    checks.that(f"with each group {wrong}", status == 0)
+    for name in offered:
+        checks.that(f"{name}: in order", f"{name} is in order" in told)
     _, text, _ = call("--template=equilibrium", folder=folder)
     keys = {(group, key) for group, key in re.findall(r"^\| `&(\w+)` \| `(\w+)` ", call("--keys", folder=folder)[1], re.M)
             if group not in ("modes", "strip_load", "dynamics", "rotor", "capacity", "transient", "periodic", "unbalance",

@@ -100,10 +100,11 @@ def check_same(checks, folder, strip):
                  crests(free)[4]/crests(free)[5] - 1.0, 1.0e-3)
 
 
-def check_convergence(checks, folder):
-    """The paper's mesh is 1.6 to 2 % stiff at an inner bump."""
-    inner = [crests(solve(folder, f"mesh_{k}", mesh={"arc_elements": 12*k, "flat_elements": 3*k,
-                                                     "axial_elements": 50}))[4] for k in (1, 2, 4)]
+def check_convergence(checks, folder, strip):
+    """The paper's mesh, which the strip has, is 1.6 to 2 % stiff at an inner bump."""
+    finer = [solve(folder, f"mesh_{k}", mesh={"arc_elements": 12*k, "flat_elements": 3*k,
+                                              "axial_elements": 50}) for k in (2, 4)]
+    inner = [crests(answer)[4] for answer in (strip, *finer)]
     order = numpy.log2((inner[1] - inner[0])/(inner[2] - inner[1]))
     checks.within("order of an inner crest along the arc", order, 1.8, 2.2)
     finest = inner[2] + (inner[2] - inner[1])/3.0
@@ -196,7 +197,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         strip = check_reference(checks, folder)
         check_same(checks, folder, strip)
-        check_convergence(checks, folder)
+        check_convergence(checks, folder, strip)
         check_modes(checks, folder)
         check_numbers(checks, folder)
         check_reader(checks, folder, strip)

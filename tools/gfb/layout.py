@@ -14,9 +14,13 @@ NAMED = ("summary", "history", "provenance")  # groups whose names are those of 
 SAMPLE = {"bump_foil%height_deviation": 1.0e-7, "bump_foil%seed": 1, "sample%count": 2, "model%foil": "beam"}
 TILTING = {"rotor%transverse_inertia": 1.0e-3, "rotor%bearing_distance": 0.12, "model%foil": "beam", "transient%turns": 2.0,
            "mesh%circumferential_elements": 52, "mesh%axial_elements": 4}
+# Of any mesh the files hold the same.
+COARSE = {"mesh%circumferential_elements": 48, "mesh%axial_elements": 4}
+SWEPT = {"sweep%parameter": "speed_rpm", "sweep%values": (30000.0, 35000.0)}
 SCENES = (  # analysis of the template, what is changed in it
-    ("equilibrium", {}), ("equilibrium", SAMPLE), ("strip", {}), ("modes", {}), ("linear_dynamics", {"rotor%mass": 0.1}),
-    ("equilibrium", {"sweep%parameter": "speed_rpm", "sweep%values": (30000.0, 35000.0)}), ("transient", TILTING), ("periodic", {}))
+    ("equilibrium", COARSE), ("equilibrium", SAMPLE), ("strip", {}), ("modes", {}),
+    ("linear_dynamics", {"rotor%mass": 0.1, **COARSE}), ("equilibrium", {**SWEPT, **COARSE}),
+    ("transient", TILTING), ("periodic", {}))
 
 
 def layout(gfb):

@@ -224,7 +224,7 @@ class Faults:
         case = self.folder/"sweep.nml"
         case.write_text(case_text(sweep), encoding="utf-8")
         place = self.folder/"sweep"
-        call(self.gfb, case, place, "--time-limit", "2")
+        call(self.gfb, case, place, "--time-limit", "1")
         file = place/"sweep.restart.h5"
         whole = file.read_bytes()
         chance, survived, refused, wrong = random.Random(1), 0, 0, []
