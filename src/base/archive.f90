@@ -9,7 +9,7 @@
 !> itself in `problem`.
 !>
 !> An archive lies in memory: it is sent from one group of ranks to another, or becomes a group of a
-!> restart file (`gfb_archive_file`). Numbers and words are the same on all ranks; of a field each
+!> restart file (`gfb_restart_file`). Numbers and words are the same on all ranks; of a field each
 !> rank has a block.
 module gfb_archive
   use gfb_kinds, only: wp, long
