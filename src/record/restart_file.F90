@@ -39,10 +39,7 @@ module gfb_restart_file
     integer :: step = 0                      !! of a run that goes on: number of the step or point that was done
     real(wp) :: elapsed = 0.0_wp             !! and how long after the first one [s]
   contains
-    procedure :: is_due
-    procedure :: is_due_after
-    procedure :: may_be_written
-    procedure :: tell
+    procedure :: is_due, is_due_after, may_be_written, tell
   end type restart_type
 
   integer, parameter :: format = 3 !! of the file; the first one had none to say
@@ -109,19 +106,16 @@ contains
   end function without_comment
 
   !> Whether a file is written after a step.
-  function is_due(self, step) result(due)
+  logical function is_due(self, step) result(due)
     class(restart_type), intent(inout) :: self !! the restart file
     integer, intent(in) :: step !! number of the step or point that is done
-    logical :: due
-
     due = self%is_due_after(step - 1, step)
   end function is_due
 
   !> Whether a file is written where some steps came at once.
-  function is_due_after(self, before, now) result(due)
+  logical function is_due_after(self, before, now) result(due)
     class(restart_type), intent(inout) :: self !! the restart file
     integer, intent(in) :: before, now !! steps that were and are done
-    logical :: due
 
     due = self%may_be_written()
     if (.not. due) return
@@ -134,10 +128,8 @@ contains
   end function is_due_after
 
   !> Whether the run has a restart file; a search for all equilibria or for a mesh has none.
-  pure function may_be_written(self) result(may)
+  pure logical function may_be_written(self) result(may)
     class(restart_type), intent(in) :: self !! the restart file
-    logical :: may
-
     may = allocated(self%path)
   end function may_be_written
 
@@ -332,7 +324,6 @@ contains
     type(restart_type), intent(in) :: restart
     character(len=*), intent(in) :: why
     type(error_type), allocatable, intent(out) :: error
-
     call fail(error, restart%path//': '//why//'; run without --restart to start from the beginning', status_machine)
   end subroutine refuse
 

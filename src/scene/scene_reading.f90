@@ -37,10 +37,9 @@ contains
 
   !> How many values a list means to have whose one value stands for all; 0 where it has as many as
   !> the file gives.
-  pure function list_length(key, foil) result(length)
+  pure integer function list_length(key, foil) result(length)
     type(swept_key_type), intent(in) :: key !! a list
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    integer :: length
 
     length = 0
     if (key%group /= 'bump_foil') return
@@ -382,7 +381,6 @@ contains
     real(wp), intent(in) :: value !! [the sweep's unit]
     type(scene_type), intent(out) :: there !! the scene with the value in it
     type(error_type), allocatable, intent(out) :: error !! which rule is broken
-
     call read_bearing(text_at_value(scene, value), scene, there, error)
   end subroutine scene_at_value
 

@@ -68,7 +68,6 @@ contains
     real(wp), intent(in) :: newest(:)   !! y that the step led to, in any unit
     real(wp), intent(in) :: value(:, :) !! (values, times) now and one step ago
     real(wp) :: rate(size(newest))
-
     rate = weight(0)*(newest - value(:, 1)) + weight(2)*(value(:, 2) - value(:, 1))
   end function newest_rate
 
@@ -123,7 +122,6 @@ contains
     real(wp), intent(in) :: free       !! amplitude without any force [m sqrt(kg)]
     real(wp), intent(in) :: drive      !! d, from where it would be without one [m sqrt(kg)]
     real(wp) :: amplitude              !! [m sqrt(kg)]
-
     amplitude = factor**2*(free - drive)/(factor**2 + eigenvalue)
   end function modal_amplitude
 
@@ -141,7 +139,6 @@ contains
   elemental function modal_inertia(factor, eigenvalue) result(inertia)
     real(wp), intent(in) :: factor, eigenvalue !! as in `modal_amplitude`
     real(wp) :: inertia !! [1/s2]
-
     inertia = -factor**4/(factor**2 + eigenvalue)
   end function modal_inertia
 end module gfb_backward_difference

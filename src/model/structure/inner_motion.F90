@@ -53,13 +53,7 @@ module gfb_inner_motion
     Vec, private :: left, right              !! these scales
     Vec, private :: drive, force             !! work space: one a mode; one an unknown
   contains
-    procedure :: begin
-    procedure :: prepare
-    procedure :: carry
-    procedure :: add_force
-    procedure :: add_stiffness
-    procedure :: visit
-    procedure :: destroy
+    procedure :: begin, prepare, carry, add_force, add_stiffness, visit, destroy
     procedure, private :: driven_by
   end type inner_motion_type
 

@@ -71,34 +71,30 @@ contains
   end subroutine read_bearing_case
 
   !> Angle that the pad covers [rad].
-  elemental function pad_angle(bearing) result(angle)
+  elemental real(wp) function pad_angle(bearing) result(angle)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-    real(wp) :: angle
     angle = turn - bearing%leading_edge_angle
     if (bearing%arc > 0.0_wp) angle = bearing%arc
   end function pad_angle
 
   !> Angle from the first pad to another [rad].
-  elemental function pad_turn(bearing, pad) result(angle)
+  elemental real(wp) function pad_turn(bearing, pad) result(angle)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     integer, intent(in) :: pad !! its number, from 1
-    real(wp) :: angle
     angle = turn*real(pad - 1, wp)/real(bearing%pads, wp)
   end function pad_turn
 
   !> Where the preload narrows the gap of a pad most, theta_p [rad].
-  elemental function preload_angle(bearing, pad) result(angle)
+  elemental real(wp) function preload_angle(bearing, pad) result(angle)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     integer, intent(in) :: pad !! its number, from 1
-    real(wp) :: angle
     angle = bearing%leading_edge_angle + pad_turn(bearing, pad) &
             + bearing%preload_offset*pad_angle(bearing)
   end function preload_angle
 
   !> Length of the unrolled pad [m].
-  elemental function pad_length(bearing) result(length)
+  elemental real(wp) function pad_length(bearing) result(length)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-    real(wp) :: length
     length = bearing%radius*pad_angle(bearing)
   end function pad_length
 
@@ -214,10 +210,9 @@ contains
   end subroutine read_bore_case
 
   !> Smallest gap at rest of pads with a preload [m].
-  pure function least_gap(bearing, profile) result(gap)
+  pure real(wp) function least_gap(bearing, profile) result(gap)
     type(bearing_case_type), intent(in) :: bearing
     type(bore_profile_type), intent(in) :: profile
-    real(wp) :: gap
     integer, parameter :: points = 2000 !! of a pad
     real(wp) :: angle, shift
     integer :: pad, i

@@ -207,9 +207,8 @@ contains
   end subroutine read_sample_case
 
   !> A quantile in percent.
-  elemental function percent_of(quantile) result(percent)
+  elemental integer function percent_of(quantile) result(percent)
     real(wp), intent(in) :: quantile !! between 0 and 1 [1]
-    integer :: percent
     percent = nint(100.0_wp*quantile)
   end function percent_of
 

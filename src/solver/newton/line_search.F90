@@ -428,11 +428,10 @@ contains
 
   !> Whether a trial's residual is, at the present length of the step. Near the end round-off makes residuals jump: a small
   !> full step is taken as it is.
-  pure function is_small_enough(line, residual, full) result(is)
+  pure logical function is_small_enough(line, residual, full) result(is)
     type(line_search_type), intent(in) :: line
     real(wp), intent(in) :: residual !! norm, scaled; not a number where the trial could not be evaluated [1]
     logical, intent(in) :: full      !! the step is not shortened
-    logical :: is
 
     is = residual <= huge(1.0_wp)
     if (is) is = residual <= (1.0_wp - sufficient*line%length)*maxval(line%past) .or. (line%step <= stagnation .and. full)

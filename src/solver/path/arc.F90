@@ -75,13 +75,7 @@ module gfb_arc
     Vec :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
     Vec :: work
   contains
-    procedure :: between
-    procedure :: return_to
-    procedure :: nears_fold
-    procedure :: to_turn
-    procedure :: path_length
-    procedure :: length_of
-    procedure :: weigh
+    procedure :: between, return_to, nears_fold, to_turn, path_length, length_of, weigh
   end type arc_type
 
 contains
@@ -259,9 +253,8 @@ contains
   end subroutine turn_corner
 
   !> Whether a step round a corner is not a leap to another branch.
-  function stays_near(arc) result(near_by)
+  logical function stays_near(arc) result(near_by)
     type(arc_type), intent(inout) :: arc
-    logical :: near_by
     near_by = arc%path_length() <= min(longest_step, longest_leap*max(arc%last_length, least_start))
   end function stays_near
 
@@ -359,9 +352,8 @@ contains
   end subroutine nears_fold
 
   !> Length of the path from the base to the state.
-  function path_length(self) result(length)
+  real(wp) function path_length(self) result(length)
     class(arc_type), intent(inout) :: self !! the arc
-    real(wp) :: length
     PetscErrorCode :: ierr
 
     PetscCallA(VecWAXPY(self%work, -1.0_wp, self%path%base, self%path%state, ierr))
@@ -369,10 +361,9 @@ contains
   end function path_length
 
   !> Length of a vector in the arc's measure.
-  function length_of(self, vector) result(length)
+  real(wp) function length_of(self, vector) result(length)
     class(arc_type), intent(in) :: self !! the arc
     Vec, intent(in) :: vector !! of all ranks
-    real(wp) :: length
     Vec :: weighted
     PetscErrorCode :: ierr
 

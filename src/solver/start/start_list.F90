@@ -128,7 +128,6 @@ contains
   pure function start_name(start) result(name)
     integer, intent(in) :: start !! of the list
     character(len=:), allocatable :: name
-
     name = trim(names(start))
   end function start_name
 
@@ -229,10 +228,9 @@ contains
 
   !> Whether a start under a lighter load may find another branch: not where the film draws the edge to the shaft, and not where a
   !> smaller system has been searched so.
-  function suits_lighter_load(problem, report) result(suits)
+  logical function suits_lighter_load(problem, report) result(suits)
     type(start_problem_type), intent(in) :: problem
     type(path_report_type), intent(in) :: report !! of the starts before
-    logical :: suits
 
     suits = problem%bearing%floats .and. problem%bearing%has_contacts() .and. .not. &
       (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction)
@@ -269,9 +267,8 @@ contains
   end subroutine try_lighter_load
 
   !> Whether a start that fails leaves a state without a fixed edge on this system.
-  pure function leaves_a_state(start) result(leaves)
+  pure logical function leaves_a_state(start) result(leaves)
     integer, intent(in) :: start !! of the list
-    logical :: leaves
     leaves = all(start /= [start_smaller_answer, start_smaller_end, start_edge_fixed])
   end function leaves_a_state
 
@@ -335,9 +332,8 @@ contains
   end subroutine try_several_edges
 
   !> Whether an answer may be a stable one: the sign of its determinant speaks for it.
-  function may_be_stable(problem) result(may_be)
+  logical function may_be_stable(problem) result(may_be)
     type(start_problem_type), intent(in) :: problem
-    logical :: may_be
     integer :: sign_of_determinant
 
     call find_determinant_sign(problem%newton, sign_of_determinant)
@@ -345,11 +341,10 @@ contains
   end function may_be_stable
 
   !> Whether a start led to an answer at which no free edge is lifted.
-  function edges_rest(problem, report, highest) result(rest)
+  logical function edges_rest(problem, report, highest) result(rest)
     type(start_problem_type), intent(in) :: problem
     type(path_report_type), intent(in) :: report !! of the start
     real(wp), intent(in) :: highest !! edge that counts as resting, over the clearance [1]
-    logical :: rest
     integer :: pad
 
     rest = report%converged()

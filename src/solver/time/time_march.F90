@@ -361,7 +361,6 @@ contains
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: weight(0:2) !! of the step [1/s]
     real(wp) :: place(film_forces)
-
     place = free_value(weight, march%place, march%velocity)
   end function free_place
 
@@ -389,7 +388,6 @@ contains
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: time !! [s]
     real(wp) :: matrix(2, 2)     !! [N m s]
-
     matrix = march%drive%polar_inertia*march%drive%speed_at(time)*reshape([0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp], [2, 2])
   end function gyration
 

@@ -45,9 +45,8 @@ module gfb_sweep_study
 contains
 
   !> The first value; the scene's own point where the shaft is to be fixed there.
-  function first_value(self) result(point)
+  integer function first_value(self) result(point)
     class(sweep_study_type), intent(in) :: self !! the study, with its scene
-    integer :: point
     point = merge(0, 1, self%solution%scene%sweep%hold_position)
   end function first_value
 
@@ -326,10 +325,9 @@ contains
   end function passed
 
   !> What the sweep changes, at a path parameter of 0 at its first and 1 at its last value.
-  pure function value_at(scene, at) result(value)
+  pure real(wp) function value_at(scene, at) result(value)
     type(scene_type), intent(in) :: scene
     real(wp), intent(in) :: at !! path parameter [1]
-    real(wp) :: value
 
     associate (values => scene%sweep%values)
       value = values(1) + at*(values(size(values)) - values(1))
