@@ -3,8 +3,7 @@ module gfb_machine_memory
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: available_memory, unknown_memory, named_number, group_path, look_for_room, &
-            start_blas
+  public :: available_memory, unknown_memory, named_number, group_path, look_for_room, start_blas
 
   real(wp), parameter :: unknown_memory = huge(1.0_wp) !! where nothing tells
   real(wp), parameter :: kilobyte = 1024.0_wp          !! the kernel's kB [B]

@@ -5,8 +5,7 @@ module gfb_quantity
   use gfb_archive, only: archive_type
   implicit none (type, external)
   private
-  public :: number_quantity, add_quantity, place_of, number_in, visit_description, &
-            are_alike
+  public :: number_quantity, add_quantity, place_of, number_in, visit_description, are_alike
 
   integer, parameter, public :: quantity_number = 1, quantity_count = 2, quantity_word = 3, &
                                 quantity_truth = 4

@@ -2,8 +2,7 @@
 module gfb_bearing_summary
   use gfb_kinds, only: wp
   use gfb_units, only: degrees
-  use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, &
-                          place_of
+  use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, place_of
   use gfb_result_names, only: add_result
   use gfb_result_table, only: film_and_contact, film_and_contact_brake
   use gfb_run_log, only: run_log_type

@@ -27,7 +27,6 @@ module gfb_arc
   private
   public :: begin_arc, advance_arc, create_arc, end_arc, visit_arc, visit_steps
 
-  real(wp), parameter :: growth = 2.0_wp
   real(wp), parameter :: sharpest_turn = 0.5_wp    !! cosine between successive steps
   real(wp), parameter :: beyond_opening = 1.0e-3_wp !! of a contact, over the clearance [1]
   real(wp), parameter :: beyond_closing = 1.0e-6_wp !! the same, its penetration
@@ -36,7 +35,7 @@ module gfb_arc
   real(wp), parameter :: near = 0.2_wp             !! a change of contact that is turned round at once, over the step
   real(wp), parameter :: short_of_it = 0.9_wp      !! of the distance to a change of contact
   real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
-  integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
+  integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is doubled
   integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
 
   real(wp), parameter :: first_step = 1.0e-3_wp
@@ -163,7 +162,7 @@ contains
     arc%last_length = length
     call find_tangent(arc)
     arc%step = min(arc%step_limit, max(least_start, length))
-    if (easy) arc%step = min(arc%step_limit, growth*arc%step)
+    if (easy) arc%step = min(arc%step_limit, 2.0_wp*arc%step)
     arc%steps = arc%steps + 1
   end subroutine advance_arc
 

@@ -7,8 +7,7 @@
 module gfb_memory_check
   use gfb_kinds, only: wp
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_mesh_case, only: linear_solver_direct, linear_solver_out_of_core, &
-                           linear_solver_iterative
+  use gfb_mesh_case, only: linear_solver_direct, linear_solver_out_of_core, linear_solver_iterative
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
