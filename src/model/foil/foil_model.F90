@@ -19,6 +19,7 @@ module gfb_foil_model
   use gfb_condensed_piece, only: condensed_piece_type
   implicit none (type)
   private
+  public :: create_rigid_foil
 
   !> A foil model: deflection at the film nodes, equations, their derivatives. A rigid one.
   type, public :: foil_model_type
@@ -47,6 +48,17 @@ module gfb_foil_model
   end type foil_model_type
 
 contains
+
+  !> A rigid surface under a film.
+  subroutine create_rigid_foil(nodes, foil)
+    integer, intent(in) :: nodes !! film nodes of this rank
+    type(foil_model_type), intent(out) :: foil !! without unknowns
+
+    allocate (foil%global_unknown(0), foil%unknown_scale(0), foil%equation_scale(0))
+    allocate (foil%row_entries(0))
+    allocate (foil%source(nodes), source=0)
+    allocate (foil%rate(nodes), foil%origin(nodes), source=0.0_wp)
+  end subroutine create_rigid_foil
 
   !> Adds the foil's equations to the local residual of the bearing.
   subroutine add_residual(self, unknown, residual)

@@ -11,7 +11,7 @@ module gfb_model_case
   integer, parameter, public :: foil_rigid = 1, foil_elastic_foundation = 2
   integer, parameter, public :: foil_shell = 3, foil_beam = 4
 
-  !> A foil model, as the scene knows it; `gfb_foil_models` has what each row builds.
+  !> A foil model, as the scene knows it; `gfb_bearing_builder` has what each row builds.
   type :: foil_row_type
     character(len=18) :: word    !! in the case file
     logical :: meshed            !! top foil and bumps have meshes of their own
