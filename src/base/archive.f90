@@ -9,7 +9,7 @@
 !> itself in `problem`.
 !>
 !> An archive lies in memory: it is sent from one group of ranks to another, or becomes a group of a
-!> restart file (`gfb_archive_file`). Numbers and words are the same on all ranks; of a field each
+!> restart file (`gfb_restart_file`). Numbers and words are the same on all ranks; of a field each
 !> rank has a block.
 module gfb_archive
   use gfb_kinds, only: wp, long
@@ -48,18 +48,11 @@ module gfb_archive
       visit_integer_matrix, visit_logical, visit_text
     !> Saves or restores an allocatable array with its shape.
     generic :: visit_sized => visit_sized_reals, visit_sized_matrix, visit_sized_integers
-    procedure :: visit_count
-    procedure :: visit_block
-    procedure :: require
-    procedure :: is_used_up
-    procedure :: finish
-    procedure :: numbers
-    procedure :: words
+    procedure :: visit_count, visit_block, require, is_used_up, finish, numbers, words
     procedure, private :: visit_real, visit_reals, visit_matrix, visit_integer, visit_integers, &
       visit_integer_matrix, visit_logical, visit_text
-    procedure, private :: visit_sized_reals, visit_sized_matrix, visit_sized_integers
-    procedure, private :: pass_line, pass_shape, pass_numbers, pass_whole_numbers
-    procedure, private :: add_letters, next_line
+    procedure, private :: visit_sized_reals, visit_sized_matrix, visit_sized_integers, pass_line
+    procedure, private :: pass_shape, pass_numbers, pass_whole_numbers, add_letters, next_line
   end type archive_type
 
 contains
@@ -105,9 +98,8 @@ contains
   end function words
 
   !> Whether all that was saved has been taken.
-  pure function is_used_up(self) result(empty)
+  pure logical function is_used_up(self) result(empty)
     class(archive_type), intent(in) :: self !! the archive
-    logical :: empty
     empty = self%numbers_done == size(self%number) .and. self%letters_done == len(self%letters)
     if (allocated(self%field)) empty = empty .and. self%fields_done == size(self%field)
   end function is_used_up

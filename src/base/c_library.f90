@@ -74,14 +74,12 @@ contains
   subroutine remove_file(path)
     character(len=*), intent(in) :: path !! of the file
     integer(c_int) :: ignored
-
     ignored = c_remove(trim(path)//c_null_char)
   end subroutine remove_file
 
   !> Ends the process with an exit status and without a word.
   subroutine exit_with_status(status)
     integer, intent(in) :: status !! exit status of the program
-
     call c_exit(int(status, c_int))
   end subroutine exit_with_status
 
@@ -97,8 +95,7 @@ contains
   end function is_terminal
 
   !> Largest memory this process has used [B].
-  function peak_memory() result(bytes)
-    real(wp) :: bytes
+  real(wp) function peak_memory() result(bytes)
     integer(c_long) :: usage(usage_words)
 
     usage = 0

@@ -21,10 +21,9 @@ contains
   end function block_ends
 
   !> Who takes a thing of the row.
-  pure function owner_of(item, items, takers) result(taker)
+  pure integer function owner_of(item, items, takers) result(taker)
     integer, intent(in) :: item !! number in the row, from 1
     integer, intent(in) :: items, takers !! what is shared, and among how many
-    integer :: taker
 
     associate (each => items/takers, more => modulo(items, takers))
       if (item <= more*(each + 1)) then

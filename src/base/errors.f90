@@ -33,7 +33,6 @@ contains
   pure subroutine add_context(error, place)
     type(error_type), allocatable, intent(inout) :: error !! what went wrong, if anything did
     character(len=*), intent(in) :: place !! such as 'bump 3'
-
     if (allocated(error)) error%message = place//': '//error%message
   end subroutine add_context
 end module gfb_errors

@@ -3,8 +3,7 @@ module gfb_machine_memory
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: available_memory, unknown_memory, named_number, group_path, look_for_room, &
-            start_blas
+  public :: available_memory, unknown_memory, named_number, group_path, look_for_room, start_blas
 
   real(wp), parameter :: unknown_memory = huge(1.0_wp) !! where nothing tells
   real(wp), parameter :: kilobyte = 1024.0_wp          !! the kernel's kB [B]
@@ -28,8 +27,7 @@ contains
 
   !> Memory that can be had without swapping: the kernel's own estimate, or what a limit on the
   !> group of processes leaves [B]. `unknown_memory` where neither can be read.
-  function available_memory() result(bytes)
-    real(wp) :: bytes
+  real(wp) function available_memory() result(bytes)
     real(wp) :: free
 
     bytes = unknown_memory
@@ -41,11 +39,10 @@ contains
   end function available_memory
 
   !> What the limits of this process' group, and of those above it, leave [B].
-  function group_room(controller, root, limit_name, usage_name) result(room)
+  real(wp) function group_room(controller, root, limit_name, usage_name) result(room)
     character(len=*), intent(in) :: controller !! as /proc/self/cgroup names it
     character(len=*), intent(in) :: root       !! folder of the groups
     character(len=*), intent(in) :: limit_name, usage_name
-    real(wp) :: room
     character(len=:), allocatable :: folder
     real(wp) :: limit, usage, cache
     integer :: slash
@@ -90,9 +87,8 @@ contains
 
   !> The number behind a name at the beginning of a line of a file, or the first number where no
   !> name is given; negative where there is none.
-  function named_number(file, name) result(number)
+  real(wp) function named_number(file, name) result(number)
     character(len=*), intent(in) :: file, name !! of `/proc`; what stands before the number
-    real(wp) :: number
     character(len=longest_line) :: line
     integer :: unit, status
 

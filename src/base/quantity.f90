@@ -5,8 +5,7 @@ module gfb_quantity
   use gfb_archive, only: archive_type
   implicit none (type, external)
   private
-  public :: number_quantity, add_quantity, place_of, number_in, visit_description, &
-            are_alike
+  public :: number_quantity, add_quantity, place_of, number_in, visit_description, are_alike
 
   integer, parameter, public :: quantity_number = 1, quantity_count = 2, quantity_word = 3, &
                                 quantity_truth = 4
@@ -66,10 +65,9 @@ contains
   end subroutine add_many
 
   !> Place of a name in a list; 0 where it is not there.
-  pure function place_of(name, list) result(place)
+  pure integer function place_of(name, list) result(place)
     character(len=*), intent(in) :: name !! of a result
     type(quantity_type), intent(in) :: list(:) !! without a name twice
-    integer :: place
 
     do place = size(list), 1, -1
       if (list(place)%name == name) return
@@ -77,11 +75,10 @@ contains
   end function place_of
 
   !> The number of a name in a list [its unit].
-  pure function number_in(list, name, missing) result(number)
+  pure real(wp) function number_in(list, name, missing) result(number)
     type(quantity_type), intent(in) :: list(:) !! without a name twice
     character(len=*), intent(in) :: name !! of a result
     real(wp), intent(in), optional :: missing !! where the name is not there; default: 0 [its unit]
-    real(wp) :: number
     integer :: place
 
     number = 0.0_wp
@@ -109,9 +106,8 @@ contains
 
   !> Whether all but the number of two quantities is the same; Fortran takes blanks at the end for
   !> nothing.
-  pure function are_alike(one, other) result(alike)
+  pure logical function are_alike(one, other) result(alike)
     type(quantity_type), intent(in) :: one, other !! any two
-    logical :: alike
 
     alike = one%kind == other%kind .and. one%name == other%name .and. one%unit == other%unit .and. &
       one%meaning == other%meaning .and. one%word == other%word

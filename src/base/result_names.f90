@@ -165,10 +165,9 @@ contains
   end subroutine find_known
 
   !> Whether a name is a result of a study.
-  pure function is_of(name, study) result(is)
+  pure logical function is_of(name, study) result(is)
     character(len=*), intent(in) :: name !! of a result
     integer, intent(in) :: study         !! `bearing`, ...
-    logical :: is
     type(result_type) :: found
 
     call find_result(name, found)
@@ -177,9 +176,8 @@ contains
   end function is_of
 
   !> Whether a result is the largest or smallest of values at nodes.
-  pure function is_nodal(name) result(is)
+  pure logical function is_nodal(name) result(is)
     character(len=*), intent(in) :: name !! of a result
-    logical :: is
     type(result_type) :: found
 
     call find_result(name, found)
@@ -251,10 +249,9 @@ contains
   end function marker_words
 
   !> Whether a name begins and ends as a row's name does before and behind its marks: told soon.
-  pure function may_fit(pattern, name) result(may)
+  pure logical function may_fit(pattern, name) result(may)
     character(len=*), intent(in) :: pattern !! a row's name
     character(len=*), intent(in) :: name
-    logical :: may
     integer :: first, behind
 
     first = index(pattern, '<')
@@ -378,7 +375,6 @@ contains
     character(len=*), intent(in) :: name             !! in the table
     real(wp), intent(in) :: number                   !! in the table's unit
     character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
-
     call add_value(list, name, quantity_number, number, '', phrase)
   end subroutine add_number
 
@@ -388,7 +384,6 @@ contains
     character(len=*), intent(in) :: name             !! in the table
     integer, intent(in) :: number
     character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
-
     call add_value(list, name, quantity_count, real(number, wp), '', phrase)
   end subroutine add_count
 
@@ -398,7 +393,6 @@ contains
     character(len=*), intent(in) :: name             !! in the table
     character(len=*), intent(in) :: word
     character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
-
     call add_value(list, name, quantity_word, 0.0_wp, word, phrase)
   end subroutine add_word
 
@@ -408,17 +402,15 @@ contains
     character(len=*), intent(in) :: name             !! in the table
     logical, intent(in) :: truth
     character(len=*), intent(in), optional :: phrase !! for the braces of its meaning
-
     call add_value(list, name, quantity_truth, merge(1.0_wp, 0.0_wp, truth), '', phrase)
   end subroutine add_truth
 
   !> A value, with unit and meaning from the table; stops where that has values of another kind.
   pure subroutine add_value(list, name, kind, number, word, phrase)
     type(quantity_type), allocatable, intent(inout) :: list(:)
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name, word
     integer, intent(in) :: kind !! `quantity_number`, ...
     real(wp), intent(in) :: number
-    character(len=*), intent(in) :: word
     character(len=*), intent(in), optional :: phrase
     type(result_type) :: row
     type(quantity_type) :: value

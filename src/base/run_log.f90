@@ -91,7 +91,6 @@ contains
   subroutine run_log_line(self, words)
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
-
     if (.not. self%quiet) call self%tell(words)
   end subroutine run_log_line
 
@@ -160,7 +159,6 @@ contains
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the place; empty: there is none
     real(wp), intent(in), optional :: share !! behind, 0 at the begin [1]; none: not known
-
     if (associated(self%memory)) call advance(self%memory%step, words, share)
   end subroutine run_log_is_at
 
@@ -169,7 +167,6 @@ contains
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! which one; empty: there are none any more
     real(wp), intent(in), optional :: share !! behind, 0 at the first [1]; none: not known
-
     if (associated(self%memory)) call advance(self%memory%task, words, share)
   end subroutine run_log_is_within
 
@@ -252,7 +249,6 @@ contains
   subroutine run_log_detail(self, words)
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
-
     if (self%verbose) call self%line('    '//words)
   end subroutine run_log_detail
 
@@ -271,7 +267,6 @@ contains
   subroutine run_log_warning(self, words)
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
-
     call self%warned('warning: '//words)
   end subroutine run_log_warning
 

@@ -62,48 +62,38 @@ contains
   !> Asks the run to stop when so much time has passed from now on.
   subroutine limit_time(seconds)
     integer, intent(in) :: seconds !! from now [s]
-
     call c_limit_time(int(seconds, c_int))
   end subroutine limit_time
 
   !> No clock ends the process while it writes results: where it is begun and ended.
   subroutine hold_clock(on)
     logical, intent(in) :: on !! it is begun
-
     call c_hold_clock(merge(1_c_int, 0_c_int, on))
   end subroutine hold_clock
 
   !> The signal that this rank has received, 0 for none.
-  function received_signal() result(signal)
-    integer :: signal
-
+  integer function received_signal() result(signal)
     signal = int(c_received_signal())
   end function received_signal
 
   !> The run stops because of a signal; to be called with the same one on all ranks.
   subroutine agree_on_signal(signal)
     integer, intent(in) :: signal !! its number; 0: it goes on
-
     call c_agree_on_signal(int(signal, c_int))
   end subroutine agree_on_signal
 
   !> The signal because of which the run stops, 0 where it goes on; the same on all ranks.
-  function agreed_signal() result(signal)
-    integer :: signal
-
+  integer function agreed_signal() result(signal)
     signal = int(c_agreed_signal())
   end function agreed_signal
 
   !> Whether the run stops; the same on all ranks.
-  function stop_agreed() result(stops)
-    logical :: stops
-
+  logical function stop_agreed() result(stops)
     stops = agreed_signal() /= 0
   end function stop_agreed
 
   !> Exit status of a run that was stopped.
-  function stop_status() result(status)
-    integer :: status
+  integer function stop_status() result(status)
 
     status = status_of_signals + agreed_signal()
     if (agreed_signal() == time_limit) status = status_time_limit

@@ -3,7 +3,8 @@ module gfb_text
   use gfb_kinds, only: wp, long
   implicit none (type, external)
   private
-  public :: text, exact_text, engineering_text, lower_case, nearest_word, join, plain_text
+  public :: text, exact_text, engineering_text, lower_case, nearest_word, did_you_mean, join
+  public :: plain_text
 
   integer, parameter :: longest_word = 60 !! a longer one is a misspelling of nothing
 
@@ -117,11 +118,9 @@ contains
   end function lower_case
 
   !> Insertions, deletions, replacements and swaps of neighbours that turn one word into another.
-  pure function edit_distance(first, second) result(distance)
+  pure integer function edit_distance(first, second) result(distance)
     character(len=*), intent(in) :: first, second !! the words compared
-    integer :: distance
-    integer :: table(0:len(first), 0:len(second))
-    integer :: i, j, cost, swapped
+    integer :: table(0:len(first), 0:len(second)), i, j, cost, swapped
 
     table(:, 0) = [(i, i=0, len(first))]
     table(0, :) = [(j, j=0, len(second))]
@@ -162,6 +161,17 @@ contains
     end do
   end function nearest_word
 
+  !> `, did you mean WORD?`; empty where there is no word.
+  pure function did_you_mean(word, quote) result(question)
+    character(len=*), intent(in) :: word !! such as `nearest_word` finds, or several
+    character(len=*), intent(in), optional :: quote !! on both sides of it
+    character(len=:), allocatable :: question
+
+    question = word
+    if (present(quote) .and. word /= '') question = quote//word//quote
+    if (word /= '') question = ', did you mean '//question//'?'
+  end function did_you_mean
+
   !> Words with a separator between them.
   pure function join(words, separator) result(joined)
     character(len=*), intent(in) :: words(:)  !! blank-padded
@@ -189,9 +199,8 @@ contains
   end function plain_text
 
   !> Where a decimal ends when trailing zeros, and a point left bare by them, are dropped.
-  pure function last_digit(words) result(last)
+  pure integer function last_digit(words) result(last)
     character(len=*), intent(in) :: words
-    integer :: last
 
     last = verify(words, '0', back=.true.)
     if (index(words, '.') == 0) last = len(words)

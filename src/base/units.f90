@@ -3,11 +3,12 @@ module gfb_units
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: pi, turn, degree, rpm, micrometres
+  public :: pi, turn, degree, degrees, rpm, micrometres
 
   real(wp), parameter :: pi = acos(-1.0_wp)
   real(wp), parameter :: turn = 2.0_wp*pi      !! [rad]
   real(wp), parameter :: degree = pi/180.0_wp  !! [rad]
+  real(wp), parameter :: degrees = 1.0_wp/degree !! in a radian
   real(wp), parameter :: rpm = pi/30.0_wp      !! turn a minute [rad/s]
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
 end module gfb_units

@@ -72,9 +72,8 @@ contains
   end subroutine tell_cost
 
   !> Largest difference of displacements and of rotations, each over the largest one.
-  pure function difference(one, other) result(largest)
+  pure real(wp) function difference(one, other) result(largest)
     real(wp), intent(in) :: one(:, :), other(:, :) !! (5, nodes) [m], [rad]
-    real(wp) :: largest
 
     largest = max(maxval(abs(other(:3, :) - one(:3, :)))/maxval(abs(one(:3, :))), &
                   maxval(abs(other(4:, :) - one(4:, :)))/maxval(abs(one(4:, :))))
@@ -129,9 +128,8 @@ contains
   end subroutine measure_complements
 
   !> Retained nodes of a piece.
-  pure function piece_size(piece) result(nodes)
+  pure integer function piece_size(piece) result(nodes)
     type(substructure_type), intent(in) :: piece
-    integer :: nodes
     nodes = count(piece%retained)
   end function piece_size
 

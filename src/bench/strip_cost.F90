@@ -175,16 +175,14 @@ contains
   end subroutine time_solver
 
   !> CPU time of this process [s].
-  function now() result(seconds)
-    real(wp) :: seconds
+  real(wp) function now() result(seconds)
     call cpu_time(seconds)
   end function now
 
   !> A whole number of the command line.
-  function argument(position, usage) result(number)
+  integer function argument(position, usage) result(number)
     integer, intent(in) :: position !! of the argument on the command line, from 1
     character(len=*), intent(in) :: usage !! what the command line should be
-    integer :: number
     character(len=20) :: word
     integer :: status
 

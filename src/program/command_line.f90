@@ -2,7 +2,7 @@
 module gfb_command_line
   use gfb_errors, only: error_type, fail
   use gfb_run_log, only: run_log_type
-  use gfb_text, only: nearest_word
+  use gfb_text, only: nearest_word, did_you_mean
   use gfb_petsc_session, only: given_petsc_options, wall_time
   use gfb_run_context, only: run_context_type
   implicit none (type, external)
@@ -197,9 +197,8 @@ contains
   end subroutine check_groups
 
   !> Whether the standard input is among the case files.
-  pure function any_is_input(files) result(is)
+  pure logical function any_is_input(files) result(is)
     type(file_name_type), intent(in) :: files(:)
-    logical :: is
     integer :: i
 
     is = .false.
@@ -258,7 +257,6 @@ contains
     character(len=*), intent(in) :: word
     type(command_line_type), intent(inout) :: line
     type(error_type), allocatable, intent(out) :: error
-    character(len=:), allocatable :: near
     integer :: status
 
     if (index(word, '--output=') == 1 .and. len(word) > 9) then
@@ -279,9 +277,8 @@ contains
     else if (index(word, '--name=') == 1 .and. len(word) > 7) then
       line%table = word(8:)
     else if (index(word, '-') == 1) then
-      near = nearest_word(word, options)
-      if (near /= '') near = ', did you mean '//near//'?'
-      call fail(error, 'gfb: unknown option '//word//near//' (gfb --help shows all)')
+      call fail(error, 'gfb: unknown option '//word//did_you_mean(nearest_word(word, options))// &
+                ' (gfb --help shows all)')
     else
       call take_file(word, line, error)
     end if

@@ -6,7 +6,7 @@ module gfb_information
   use gfb_result_names, only: find_result, result_words, row_names, results_text
   use gfb_result_table, only: result_type
   use gfb_scene_reading, only: all_keys, key_table
-  use gfb_text, only: lower_case, nearest_word, plain_text, join
+  use gfb_text, only: lower_case, nearest_word, did_you_mean, plain_text, join
   use gfb_command_line, only: command_line_type, help_text
   use gfb_provenance, only: version_text
   use gfb_case_keys, only: case_keys_type
@@ -103,10 +103,10 @@ contains
     words = ''
     do i = 1, size(found)
       if (found(i) == '' .or. any(found(:i - 1) == found(i))) cycle
-      if (words /= '') words = words//' or'
-      words = words//' '//trim(found(i))
+      if (words /= '') words = words//' or '
+      words = words//trim(found(i))
     end do
-    if (words /= '') words = ', did you mean'//words//'?'
+    words = did_you_mean(words)
   end function near
 
   !> The text that is asked for; empty where a case is to be computed.
@@ -146,12 +146,8 @@ contains
 
     words = ''
     if (all(analysis_words /= analysis)) then
-      hint = nearest_word(analysis, analysis_words)
-      if (hint == '') then
-        hint = '.'
-      else
-        hint = ', did you mean '//hint//'?'
-      end if
+      hint = did_you_mean(nearest_word(analysis, analysis_words))
+      if (hint == '') hint = '.'
       call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//hint// &
                 ' The analyses are '//join(analysis_words, ', '))
       return

@@ -32,8 +32,7 @@ contains
     logical, intent(in) :: strict !! warnings are mistakes
     type(scene_type), intent(out) :: scene !! what the case file asks for
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    character(len=:), allocatable :: words
-    character(len=:), allocatable :: problem
+    character(len=:), allocatable :: words, problem
     integer :: length(2), ierr
 
     if (file /= standard_input) then

@@ -2,6 +2,7 @@
 !> A job whose ranks are divided into groups: what is asked of them is checked, and then computed.
 module gfb_run_groups
   use petscsys
+  use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
@@ -16,7 +17,7 @@ module gfb_run_groups
   use gfb_result_file, only: result_file_type
   use gfb_signals, only: stop_words, agree_on_signal, agreed_signal
   use gfb_petsc_session, only: wall_time, stop_is_asked
-  use gfb_pool, only: pool_type, visit_task, end_log
+  use gfb_pool, only: pool_type, visit_task, end_log, group_log_path
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
   use gfb_reasons, only: status_unconverged
@@ -26,13 +27,16 @@ module gfb_run_groups
   use gfb_command_line, only: command_line_type
   use gfb_check_scene, only: check_scene
   use gfb_foil_plan, only: choose_reduction
-  use gfb_divided_sample, only: run_divided_sample
-  use gfb_sample, only: sample_type
+  use gfb_sample, only: sample_type, write_sample
   use gfb_studies, only: create_study, run_scene
   use gfb_divided_bearing, only: run_divided_bearing
+  use gfb_bearing_summary, only: cost_type
+  use gfb_c_library, only: peak_memory
   implicit none (type)
   private
   public :: run_groups
+
+  integer, parameter :: writer = 1 !! the group that writes
 
 contains
 
@@ -378,4 +382,87 @@ contains
     if (present(status)) both%status = max(both%status, status)
     call move_alloc(both, error)
   end subroutine add
+
+  !> Computes the members of a sample side by side, and writes them as one run would. Every group takes the next
+  !> member that is left; a member's answer does not depend on its group.
+  subroutine run_divided_sample(scene, study, context, pool, status)
+    type(scene_type), intent(in) :: scene !! with `&sample`
+    type(sample_type), intent(inout) :: study !! of this group, as it was created
+    type(run_context_type), intent(in) :: context !! of the job; its log is the terminal
+    type(pool_type), target, intent(inout) :: pool !! that is divided
+    integer, intent(out) :: status !! exit status of the program
+    type(run_context_type) :: own
+    type(archive_type) :: mine
+    type(error_type), allocatable :: error
+    real(wp) :: total(4)
+    integer :: number
+
+    call pool%show(scene, context, &
+                   ', logs '//group_log_path(context%folder, scene%name, 1)//', ...')
+    call context%log%line(text(scene%sample%count)//' members, each group takes the next one')
+    call context%log%line('')
+    own = context
+    call pool%begin_log(group_log_path(context%folder, scene%name, pool%group), own, error)
+    if (.not. allocated(error)) call study%prepare(scene, own%log)
+    if (.not. allocated(error)) call study%check(scene, error)
+    status = 0
+    if (allocated(error)) then
+      status = error%status
+      call own%log%complaint(error%message)
+    end if
+    status = pool%largest(status)
+    if (status == 0) then
+      pool%counted = scene%sample%count
+      pool%total = scene%sample%count
+      call pool%next_task(number)
+      do while (number <= scene%sample%count)
+        call study%solve_member(scene, own, number)
+        call visit_task(mine, study%member, number)
+        call pool%next_task(number)
+      end do
+      call pool%gather_tasks(mine, writer, study%member)
+      ! Counts of a group are on each of its ranks.
+      total = pool%total_of(merge(1.0_wp, 0.0_wp, [.true., pool%leads, pool%leads, pool%leads])* &
+                           [peak_memory(), real(study%iterations, wp), &
+                            real(study%factorizations, wp), real(study%factorizations_finest, wp)])
+      study%unknowns = pool%largest(study%unknowns)
+      if (pool%group == writer) call write_all(scene, context, pool, study, total, status)
+      status = pool%largest(status)
+    else if (pool%group == writer .and. allocated(error)) then
+      call context%log%complaint(error%message)
+    end if
+    call end_log(own%log)
+    call study%discard()
+  end subroutine run_divided_sample
+
+  !> Writes all members, and tells the terminal.
+  subroutine write_all(scene, context, pool, study, total, status)
+    type(scene_type), intent(in) :: scene
+    type(run_context_type), intent(in) :: context
+    type(pool_type), intent(in) :: pool
+    type(sample_type), intent(inout) :: study
+    real(wp), intent(in) :: total(4) !! memory [B], iterations, factorizations of all groups
+    integer, intent(inout) :: status
+    type(run_context_type) :: terminal
+    type(quantity_type), allocatable :: origin(:), summary(:)
+    type(error_type), allocatable :: error
+
+    terminal = context
+    terminal%log%active = pool%leads
+    terminal%log%verbose = .false.
+    call study%judge()
+    if (.not. study%converged) status = status_unconverged
+    origin = pool%origin(context)
+    call add_result(origin, 'groups', pool%groups)
+    call terminal%take_case(scene%name, error)
+    if (.not. allocated(error)) then
+      call write_sample(scene, terminal, study%member, origin, pool%ranks, &
+                        cost_type(study%unknowns, nint(total(2)), nint(total(3)), nint(total(4)), &
+                                  wall_time() - pool%begun, total(1)), summary, error)
+    end if
+    call terminal%give_back()
+    if (.not. allocated(error)) return
+    status = max(status, error%status)
+    call terminal%log%complaint(error%message)
+  end subroutine write_all
 end module gfb_run_groups

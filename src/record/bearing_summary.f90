@@ -1,9 +1,8 @@
 !> A bearing's answer as results, and how the log shows it.
 module gfb_bearing_summary
   use gfb_kinds, only: wp
-  use gfb_units, only: pi
-  use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, &
-                          place_of
+  use gfb_units, only: degrees
+  use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, place_of
   use gfb_result_names, only: add_result
   use gfb_result_table, only: film_and_contact, film_and_contact_brake
   use gfb_run_log, only: run_log_type
@@ -14,7 +13,6 @@ module gfb_bearing_summary
   public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block, &
             asked_first
 
-  real(wp), parameter :: degrees = 180.0_wp/pi !! per radian
   real(wp), parameter :: no_direction = 1.0e-12_wp !! vectors smaller than this have none, relative
 
   !> What an answer cost.
@@ -139,9 +137,8 @@ contains
   end subroutine add_counts
 
   !> Angle from the load's direction to that of the thinnest film, in (-pi, pi] [rad].
-  pure function attitude_angle(answer) result(angle)
+  pure real(wp) function attitude_angle(answer) result(angle)
     type(bearing_answer_type), intent(in) :: answer !! with eccentricity and force
-    real(wp) :: angle
 
     associate (e => answer%eccentricity, f => answer%force)
       angle = atan2(-f(1)*e(2) + f(2)*e(1), -f(1)*e(1) - f(2)*e(2))
@@ -149,9 +146,8 @@ contains
   end function attitude_angle
 
   !> Direction of a vector, from x towards y, in [0, 360) [deg].
-  pure function direction_of(vector) result(angle)
+  pure real(wp) function direction_of(vector) result(angle)
     real(wp), intent(in) :: vector(2) !! in any unit
-    real(wp) :: angle
     angle = modulo(atan2(vector(2), vector(1))*degrees, 360.0_wp)
   end function direction_of
 

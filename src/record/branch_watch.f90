@@ -37,7 +37,6 @@ contains
   subroutine note_start(history, anew)
     type(history_row_type), intent(inout) :: history(:) !! the last row gets the result
     logical, intent(in) :: anew !! its answer was found from nothing, where no path led to it
-
     call add_result(history(size(history))%quantity, 'started_anew', anew)
   end subroutine note_start
 
@@ -66,9 +65,8 @@ contains
 
   !> Whether the determinant has another sign than in the last row that knows it, and no fold lies
   !> between, or the same sign and a fold does.
-  pure function determinant_changed(history) result(changed)
+  pure logical function determinant_changed(history) result(changed)
     type(history_row_type), intent(in) :: history(:)
-    logical :: changed
     real(wp) :: now, before
     integer :: row, folds
 

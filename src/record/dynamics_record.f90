@@ -70,7 +70,6 @@ contains
     type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
     real(wp) :: stiffness(journal_motions, journal_motions)
-
     stiffness = real(point%coefficient(:, :, i), wp)
   end function stiffness_of
 
@@ -79,7 +78,6 @@ contains
     type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
     real(wp) :: damping(journal_motions, journal_motions)
-
     damping = aimag(point%coefficient(:, :, i))/point%frequency(i)
   end function damping_of
 

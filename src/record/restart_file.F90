@@ -17,14 +17,15 @@ module gfb_restart_file
   use gfb_petsc_session, only: this_rank, rank_count, any_rank, share_failure, wall_time
   use gfb_scene, only: scene_type
   use gfb_case_file, only: write_quantities
-  use gfb_archive, only: archive_type
-  use gfb_archive_file, only: write_archive, read_archive
-  use gfb_result_file, only: result_file_type, open_result_file, close_result_file, keep_result_file, drop_result_file
+  use gfb_archive, only: archive_type, archive_field_type, open_archive
+  use gfb_result_file, only: result_file_type, open_result_file, close_result_file, &
+                             keep_result_file, drop_result_file
   use gfb_stored_file, only: stored_file_type, open_stored_file, close_stored_file
   use gfb_provenance, only: provenance, program_words
+  use gfb_division, only: block_ends
   implicit none (type)
   private
-  public :: find_restart, save_restart, read_restart, end_reading, drop_restart
+  public :: find_restart, save_restart, read_restart, end_reading, drop_restart, write_archive, read_archive
 
   character(len=1), parameter :: line_end = new_line('a')
 
@@ -38,10 +39,7 @@ module gfb_restart_file
     integer :: step = 0                      !! of a run that goes on: number of the step or point that was done
     real(wp) :: elapsed = 0.0_wp             !! and how long after the first one [s]
   contains
-    procedure :: is_due
-    procedure :: is_due_after
-    procedure :: may_be_written
-    procedure :: tell
+    procedure :: is_due, is_due_after, may_be_written, tell
   end type restart_type
 
   integer, parameter :: format = 3 !! of the file; the first one had none to say
@@ -108,19 +106,16 @@ contains
   end function without_comment
 
   !> Whether a file is written after a step.
-  function is_due(self, step) result(due)
+  logical function is_due(self, step) result(due)
     class(restart_type), intent(inout) :: self !! the restart file
     integer, intent(in) :: step !! number of the step or point that is done
-    logical :: due
-
     due = self%is_due_after(step - 1, step)
   end function is_due
 
   !> Whether a file is written where some steps came at once.
-  function is_due_after(self, before, now) result(due)
+  logical function is_due_after(self, before, now) result(due)
     class(restart_type), intent(inout) :: self !! the restart file
     integer, intent(in) :: before, now !! steps that were and are done
-    logical :: due
 
     due = self%may_be_written()
     if (.not. due) return
@@ -133,10 +128,8 @@ contains
   end function is_due_after
 
   !> Whether the run has a restart file; a search for all equilibria or for a mesh has none.
-  pure function may_be_written(self) result(may)
+  pure logical function may_be_written(self) result(may)
     class(restart_type), intent(in) :: self !! the restart file
-    logical :: may
-
     may = allocated(self%path)
   end function may_be_written
 
@@ -331,7 +324,6 @@ contains
     type(restart_type), intent(in) :: restart
     character(len=*), intent(in) :: why
     type(error_type), allocatable, intent(out) :: error
-
     call fail(error, restart%path//': '//why//'; run without --restart to start from the beginning', status_machine)
   end subroutine refuse
 
@@ -342,4 +334,61 @@ contains
     if (this_rank() /= 0 .or. .not. restart%may_be_written()) return
     call remove_file(restart%path)
   end subroutine drop_restart
+
+  !> Adds an archive to a file, in a group of its name: words, numbers, and a dataset for each field. Numbers and
+  !> words are those of the first rank; of a field each rank writes and reads its block.
+  subroutine write_archive(archive, file)
+    type(archive_type), intent(in) :: archive !! that has saved
+    type(result_file_type), intent(inout) :: file !! that is being written
+    character(len=:), allocatable :: group, fields
+    integer :: i
+
+    group = '/'//archive%name
+    fields = ''
+    call file%group(group)
+    call file%put_text(group//'/words', archive%words(), &
+                       'name, kind and shape of the numbers, one a line; texts behind theirs')
+    call file%put_numbers(group//'/numbers', archive%numbers(), 'SI', 'in the order of the words')
+    if (allocated(archive%field)) then
+      do i = 1, size(archive%field)
+        associate (field => archive%field(i))
+          fields = fields//field%name//new_line('a')
+          call file%put_block(group//'/'//field%name, field%block, field%offset, field%total, &
+                              'SI', 'in an order that does not depend on the ranks; states scaled')
+        end associate
+      end do
+    end if
+    if (fields == '') return
+    call file%put_text(group//'/fields', fields, 'names of the fields, one a line')
+  end subroutine write_archive
+
+  !> Reads one; what cannot be read leaves `failed` behind in the file, and a name there.
+  subroutine read_archive(name, rank, ranks, file, archive)
+    character(len=*), intent(in) :: name !! of the archive
+    !> this one, from 0, and their number: each gets an equal block of each field
+    integer, intent(in) :: rank, ranks
+    type(stored_file_type), intent(inout) :: file !! that is being read
+    type(archive_type), intent(out) :: archive !! will restore
+    character(len=:), allocatable :: group, fields
+    type(archive_field_type) :: field
+    integer :: at, components, ends(2)
+
+    group = '/'//name
+    call open_archive(file%numbers(group//'/numbers'), file%words(group//'/words'), archive)
+    archive%name = name
+    allocate (archive%field(0))
+    fields = ''
+    if (file%has(group//'/fields')) fields = file%words(group//'/fields')
+    do while (len(fields) > 0)
+      at = index(fields//new_line('a'), new_line('a'))
+      field%name = fields(:at - 1)
+      fields = fields(min(at + 1, len(fields) + 1):)
+      call file%find_shape(group//'/'//field%name, components, field%total)
+      ends = block_ends(field%total, ranks, rank + 1)
+      field%offset = ends(1) - 1
+      field%block = file%block(group//'/'//field%name, components, field%offset, &
+                               ends(2) - ends(1) + 1)
+      archive%field = [archive%field, field]
+    end do
+  end subroutine read_archive
 end module gfb_restart_file

@@ -187,8 +187,7 @@ contains
     type(strip_answer_type), intent(in) :: answer !! of this step
     integer, intent(in) :: step !! number of the step
     logical, intent(in) :: plates             !! the load is a plate's
-    integer, intent(in) :: newton_iterations  !! of this step
-    integer, intent(in) :: factorizations     !! of this step
+    integer, intent(in) :: newton_iterations, factorizations  !! of this step
     type(quantity_type), allocatable :: list(:)
     character(len=*), parameter :: surface(2) = [character(len=7) :: 'sleeve', 'top']
     character(len=*), parameter :: state(3) = [character(len=5) :: 'open', 'stick', 'slip']
@@ -265,8 +264,7 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(strip_answer_type), intent(in) :: answer !! of this step
     integer, intent(in) :: step !! number of the step
-    integer, intent(in) :: newton_iterations !! of this step
-    integer, intent(in) :: factorizations !! of this step
+    integer, intent(in) :: newton_iterations, factorizations !! of this step
     character(len=160) :: line
 
     write (line, '(i7, f12.4, f25.5, 2x, 3i8, 2x, 3i7, i8, i9)') step, answer%force, &

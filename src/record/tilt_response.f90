@@ -107,9 +107,8 @@ contains
   end subroutine find_untilted
 
   !> Axis that a sweep tilts about, 0 for none.
-  pure function tilt_axis(sweep) result(axis)
+  pure integer function tilt_axis(sweep) result(axis)
     type(sweep_case_type), intent(in) :: sweep !! with its parameter
-    integer :: axis
 
     axis = 0
     if (.not. sweep%present) return

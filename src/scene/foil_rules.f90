@@ -6,8 +6,7 @@ module gfb_foil_rules
   use gfb_kinds, only: wp
   use gfb_foil_cases, only: bump_foil_case_type, has_sizes, one_bump, strips_differ, &
                             fixed_edge_none, fixed_edge_trailing, has_flats, bumps_overlap, &
-                            one_strip, sizes_mirror, complain_of_sizes, size_type, &
-                            initial_curvature
+                            one_strip, sizes_mirror, complain_of_sizes, size_type, initial_curvature
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid, needs_meshes, coupling_partitioned, &
                             foil_elastic_foundation, foil_shell, foundation_pressure_local, &
@@ -244,9 +243,8 @@ contains
   end subroutine check_foils
 
   !> Whether the scene is a bearing whose foils are known, and have no meshes of their own.
-  pure function lacks_bumps(scene) result(lacks)
+  pure logical function lacks_bumps(scene) result(lacks)
     type(scene_type), intent(in) :: scene
-    logical :: lacks
     lacks = is_bearing(scene%general%analysis) .and. scene%model%foil > 0 .and. &
             .not. meshes_foils(scene%model%foil)
   end function lacks_bumps
@@ -484,16 +482,14 @@ contains
   end subroutine check_own_strips
 
   !> Whether the strips mirror each other about the midplane; one does.
-  pure function strips_mirror(scene) result(mirror)
+  pure logical function strips_mirror(scene) result(mirror)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    logical :: mirror
     mirror = sizes_mirror(scene%bump_foil) .and. .not. heights_differ(scene)
   end function strips_mirror
 
   !> Whether strips have random heights of their own; planar beams have one cross-section.
-  pure function heights_differ(scene) result(differ)
+  pure logical function heights_differ(scene) result(differ)
     type(scene_type), intent(in) :: scene
-    logical :: differ
 
     differ = scene%bump_foil%strips > 1 .and. scene%bump_foil%random%deviation > 0.0_wp
     if (is_bearing(scene%general%analysis)) differ = differ .and. scene%model%foil /= foil_beam

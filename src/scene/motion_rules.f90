@@ -378,10 +378,9 @@ contains
   end subroutine check_branch
 
   !> Whether the file says that the shaft does not turn.
-  function stands_still(keys, scene) result(still)
+  logical function stands_still(keys, scene) result(still)
     type(case_keys_type), intent(in) :: keys
     type(scene_type), intent(in) :: scene
-    logical :: still
     still = keys%meant('operation', 'speed_rpm') .and. .not. scene%operation%speed_rpm > 0.0_wp
   end function stands_still
 end module gfb_motion_rules

@@ -181,9 +181,8 @@ contains
   end subroutine check_plausible
 
   !> Number of a key's range; 0 where it has none.
-  pure function row_of(key) result(row)
+  pure integer function row_of(key) result(row)
     character(len=*), intent(in) :: key !! `group%key`
-    integer :: row
 
     do row = size(ranges), 1, -1
       if (index(' '//ranges(row)%keys//' ', ' '//key//' ') > 0) return
@@ -263,10 +262,9 @@ contains
   end subroutine check_load
 
   !> Whether a value lies where values of its key lie.
-  elemental function is_usual(range, number) result(usual)
+  elemental logical function is_usual(range, number) result(usual)
     type(range_type), intent(in) :: range
     real(wp), intent(in) :: number !! [the key's unit]
-    logical :: usual
 
     usual = .not. abs(number) > 0.0_wp .or. &
             (abs(number) >= range%low .and. abs(number) <= range%high)

@@ -5,8 +5,8 @@ module gfb_scene
                              read_accuracy_case, read_capacity_case, part_half_arc, part_arc, &
                              read_modes_case, part_top_foil, read_output_case, read_sample_case, &
                              read_sensitivity_case
-  use gfb_bearing_case, only: bearing_case_type, read_bearing_case, read_pads_case
-  use gfb_bore_case, only: bore_case_type, read_bore_case
+  use gfb_bearing_case, only: bearing_case_type, bore_case_type, read_bearing_case, &
+                              read_pads_case, read_bore_case
   use gfb_foil_cases, only: bump_foil_case_type, read_bump_foil_case, top_foil_case_type, &
                             read_top_foil_case
   use gfb_contact_case, only: contact_case_type, read_contact_case, shaft_contact_case_type, &
@@ -87,8 +87,9 @@ contains
       if (analysis == analysis_modes) misplaced = unless(any(part == [0, part_top_foil]), &
         "needs part = 'top_foil' in &modes: no other part has a pad")
       call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, misplaced)
-      call read_pads_case(keys, scene%bearing, misplaced_group(analysis, is_bearing(analysis)))
-      call read_bore_case(keys, scene%bore, scene%bearing, analysis)
+      misplaced = misplaced_group(analysis, is_bearing(analysis))
+      call read_pads_case(keys, scene%bearing, misplaced)
+      call read_bore_case(keys, scene%bore, scene%bearing, misplaced)
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)

@@ -135,10 +135,9 @@ contains
   end subroutine check_model
 
   !> Whether no point of the scene is tilted, so that one half mirrors the other.
-  pure function is_symmetric(operation, sweep) result(symmetric)
+  pure logical function is_symmetric(operation, sweep) result(symmetric)
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
-    logical :: symmetric
 
     symmetric = .not. any(abs(operation%tilt) > 0.0_wp) .and. .not. operation%tilt_is_sought .and. &
                 sweep%parameter /= sweep_tilt_x .and. sweep%parameter /= sweep_tilt_y
@@ -183,10 +182,9 @@ contains
   end subroutine check_rigid_position
 
   !> Displacement of the shaft towards the pad, the larger one of both ends [m].
-  pure function approach_to_pad(bearing, operation) result(approach)
+  pure real(wp) function approach_to_pad(bearing, operation) result(approach)
     type(bearing_case_type), intent(in) :: bearing
     type(operation_case_type), intent(in) :: operation
-    real(wp) :: approach
     real(wp) :: z, e(2)
     integer :: pad
 
@@ -207,11 +205,10 @@ contains
 
   !> Displacement towards the pad at one end of the bearing; towards the
   !> pad's edges where the thinnest gap would not be on the pad.
-  pure function approach_at_end(bearing, pad, eccentricity) result(approach)
+  pure real(wp) function approach_at_end(bearing, pad, eccentricity) result(approach)
     type(bearing_case_type), intent(in) :: bearing
     integer, intent(in) :: pad !! its number
     real(wp), intent(in) :: eccentricity(2) !! of the sleeve relative to the shaft at that end [m]
-    real(wp) :: approach
     real(wp) :: thinnest, edge(2)
 
     edge = bearing%leading_edge_angle + pad_turn(bearing, pad) + [0.0_wp, pad_angle(bearing)]

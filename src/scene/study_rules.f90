@@ -49,9 +49,8 @@ module gfb_study_rules
 contains
 
   !> Whether a load is given that is zero.
-  pure function is_unloaded(scene) result(unloaded)
+  pure logical function is_unloaded(scene) result(unloaded)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    logical :: unloaded
     unloaded = scene%operation%load_given .and. .not. any(abs(scene%operation%load) > 0.0_wp)
   end function is_unloaded
 
@@ -428,11 +427,10 @@ contains
   end subroutine check_finest
 
   !> A number of elements after some refinements by two, of a mesh that is four times coarser.
-  elemental function finer(elements, least, refinements) result(number)
+  elemental integer function finer(elements, least, refinements) result(number)
     integer, intent(in) :: elements !! that `&mesh` says, at most 100,000
     integer, intent(in) :: least !! of the first mesh
     integer, intent(in) :: refinements !! at most 8
-    integer :: number
     number = max(least, (elements + 3)/4)*2**refinements
   end function finer
 
@@ -471,16 +469,14 @@ contains
 
   !> Films of linear elements with as many nodes: of all pads, and of both bearings where a rotor
   !> tilts on two over time [1].
-  pure function films(scene) result(number)
+  pure real(wp) function films(scene) result(number)
     type(scene_type), intent(in) :: scene
-    real(wp) :: number
     number = pads(scene)*real(scene%model%film_order**2, wp)
   end function films
 
   !> Pads, of both bearings where a rotor tilts on two over time [1].
-  pure function pads(scene) result(number)
+  pure real(wp) function pads(scene) result(number)
     type(scene_type), intent(in) :: scene
-    real(wp) :: number
 
     number = real(scene%bearing%pads, wp)
     if (scene%rotor%distance_in_time > 0.0_wp) number = 2.0_wp*number
@@ -506,9 +502,8 @@ contains
   end function on_pads
 
   !> Whether the whole bump foil is meshed.
-  pure function meshes_bumps(scene) result(meshes)
+  pure logical function meshes_bumps(scene) result(meshes)
     type(scene_type), intent(in) :: scene
-    logical :: meshes
 
     associate (analysis => scene%general%analysis)
       meshes = analysis == analysis_strip .or. &

@@ -57,18 +57,16 @@ contains
   end subroutine resume_momentum
 
   !> What the scene asks for: nothing where a density is missing.
-  pure function mass_wanted(scene) result(wanted)
+  pure integer function mass_wanted(scene) result(wanted)
     type(scene_type), intent(in) :: scene
-    integer :: wanted
 
     wanted = scene%foil_damping%foil_mass
     if (.not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp) wanted = mass_off
   end function mass_wanted
 
   !> The highest frequency with which something moves the shaft, or it moves by itself [rad/s].
-  pure function fastest_motion(scene) result(highest)
+  pure real(wp) function fastest_motion(scene) result(highest)
     type(scene_type), intent(in) :: scene !! with `&transient`
-    real(wp) :: highest
 
     associate (transient => scene%transient)
       highest = angular_speed(max(scene%operation%speed_rpm, transient%final_speed_rpm))
@@ -78,10 +76,9 @@ contains
   end function fastest_motion
 
   !> The highest frequency that is asked for, with those at which whirl is looked for [rad/s].
-  pure function highest_frequency(scene, speed) result(highest)
+  pure real(wp) function highest_frequency(scene, speed) result(highest)
     type(scene_type), intent(in) :: scene !! with its frequencies
     real(wp), intent(in) :: speed !! of the shaft [rad/s]
-    real(wp) :: highest
     real(wp), parameter :: reach = 1.2_wp !! of critical masses [1]
 
     highest = max(maxval(frequencies_at(scene%dynamics, speed)), &

@@ -25,8 +25,7 @@ module gfb_reasons
     integer :: at = 0, of = 0               !! what is counted, where the code says so
     character(len=:), allocatable :: detail !! what the solver adds
   contains
-    procedure :: is_given
-    procedure :: words
+    procedure :: is_given, words
   end type reason_type
 
 contains

@@ -225,9 +225,8 @@ contains
   end subroutine sequence_coefficient_errors
 
   !> Whether the error is that of all stiffness and damping, relative, and belongs to no value.
-  pure function sequence_is_of_many(self) result(is)
+  pure logical function sequence_is_of_many(self) result(is)
     class(mesh_sequence_type), intent(in) :: self !! the sequence
-    logical :: is
     is = self%name == all_coefficients
   end function sequence_is_of_many
 
@@ -240,9 +239,8 @@ contains
 
   !> Whether the finest mesh's error is as small as asked for. Two meshes do not show an order, and
   !> an estimate without one is not enough.
-  pure function sequence_met(self) result(met)
+  pure logical function sequence_met(self) result(met)
     class(mesh_sequence_type), intent(in) :: self !! the sequence
-    logical :: met
     type(convergence_type) :: last
 
     last = self%last()
@@ -571,13 +569,11 @@ contains
   !> Frees what the solvers hold.
   subroutine discard_finest(self)
     class(refinement_type), intent(inout) :: self !! the study that refines
-
     if (allocated(self%finest)) call self%finest%discard()
   end subroutine discard_finest
 
   !> CPU time of all ranks [s].
-  function cpu_seconds() result(seconds)
-    real(wp) :: seconds
+  real(wp) function cpu_seconds() result(seconds)
     real(wp) :: all_ranks(1)
 
     call cpu_time(seconds)
@@ -601,9 +597,8 @@ contains
 
   !> Elements along the pad of the first mesh; whole ones a pitch where nodes lie above the
   !> crests, so that doubled numbers divide every pitch by two.
-  pure function first_circumferential(scene) result(elements)
+  pure integer function first_circumferential(scene) result(elements)
     type(scene_type), intent(in) :: scene
-    integer :: elements
     real(wp) :: pitches
 
     elements = max(least_circumferential, &
@@ -614,9 +609,8 @@ contains
   end function first_circumferential
 
   !> A quarter of a number, as an even one.
-  elemental function even_quarter(number) result(even)
+  elemental integer function even_quarter(number) result(even)
     integer, intent(in) :: number
-    integer :: even
     even = 2*max(1, nint(real(number, wp)/(2*quarter)))
   end function even_quarter
 

@@ -46,11 +46,7 @@ module gfb_run_context
     class(run_listener_type), pointer :: listener => null()
     type(case_lock_type), private :: lock    !! of the scene's files, on the first rank
   contains
-    procedure :: take_case
-    procedure :: give_back
-    procedure :: find_restart
-    procedure :: origin
-    procedure :: point_done
+    procedure :: take_case, give_back, find_restart, origin, point_done
   end type run_context_type
 
 contains
@@ -70,7 +66,6 @@ contains
   !> Gives the files of a case back.
   subroutine give_back(self)
     class(run_context_type), intent(inout) :: self !! the context
-
     call unlock_case(self%lock)
   end subroutine give_back
 
@@ -91,7 +86,6 @@ contains
   function origin(self) result(list)
     class(run_context_type), intent(in) :: self !! the context
     type(quantity_type), allocatable :: list(:)
-
     list = provenance(self%command, self%petsc_options, self%reduction)
   end function origin
 
@@ -99,7 +93,6 @@ contains
   subroutine point_done(self, words)
     class(run_context_type), intent(in) :: self !! the context
     character(len=*), intent(in) :: words !! which point
-
     if (associated(self%listener)) call self%listener%point_done(words)
   end subroutine point_done
 

@@ -97,7 +97,6 @@ contains
     class(study_type), intent(in) :: self !! the study
     type(scene_type), intent(in) :: scene !! that is asked for
     type(error_type), allocatable, intent(out) :: error !! what is lacking
-
     call check_memory(scene, self%memory, error)
   end subroutine check_study
 
@@ -106,7 +105,6 @@ contains
     class(study_type), intent(in) :: self !! the study
     type(scene_type), intent(in) :: scene !! as the case has it
     character(len=:), allocatable :: words
-
     words = ''
   end function nothing_left_out
 

@@ -143,9 +143,8 @@ contains
   end function arch_flexibility
 
   !> The sine without its first two terms, sin x - x + x^3/6, to the last digit.
-  elemental function fifth_order(x) result(remainder)
+  elemental real(wp) function fifth_order(x) result(remainder)
     real(wp), intent(in) :: x !! at most pi [1]
-    real(wp) :: remainder
     real(wp) :: term
     integer :: k
 
@@ -293,9 +292,8 @@ contains
   end function normal_forces
 
   !> -1, 0 or 1: in which direction each contact has slipped.
-  elemental function direction(displacement) result(slip)
+  elemental integer function direction(displacement) result(slip)
     real(wp), intent(in) :: displacement !! [m]
-    integer :: slip
     slip = 0
     if (displacement > 0.0_wp) slip = 1
     if (displacement < 0.0_wp) slip = -1
@@ -430,9 +428,8 @@ contains
   end function place_freedoms
 
   !> Length of a flat between two bumps [m].
-  pure function flat_length(chain) result(length)
+  pure real(wp) function flat_length(chain) result(length)
     type(bump_chain_type), intent(in) :: chain
-    real(wp) :: length
     length = chain%pitch - 2.0_wp*chain%half_length
     if (length < 16.0_wp*epsilon(1.0_wp)*chain%pitch) length = 0.0_wp
   end function flat_length
@@ -509,8 +506,7 @@ contains
   !> Inner displacements under the load with the rubbing ones fixed (column 1), and what a unit of
   !> each of these takes from them (the further columns).
   pure subroutine eliminate(stiffness, load, rubbing, inner, response)
-    real(wp), intent(in) :: stiffness(:, :)
-    real(wp), intent(in) :: load(:)
+    real(wp), intent(in) :: stiffness(:, :), load(:)
     integer, intent(in) :: rubbing(:), inner(:)
     real(wp), allocatable, intent(out) :: response(:, :) !! (inner, 1 + rubbing)
     logical :: solved

@@ -49,16 +49,14 @@ contains
   end function curved_bump_stiffness
 
   !> Radius of the arc, \( R_b = (l^2 + h_b^2)/(2 h_b) \) [m].
-  elemental function bump_radius(half_length, height) result(radius)
+  elemental real(wp) function bump_radius(half_length, height) result(radius)
     real(wp), intent(in) :: half_length, height !! l, h_b, of the arc [m]
-    real(wp) :: radius
     radius = (half_length**2 + height**2)/(2.0_wp*height)
   end function bump_radius
 
   !> Half the angle of the arc, \( t_0 = \arcsin(l/R_b) \) [rad].
-  elemental function bump_half_angle(half_length, height) result(angle)
+  elemental real(wp) function bump_half_angle(half_length, height) result(angle)
     real(wp), intent(in) :: half_length, height !! l, h_b, of the arc [m]
-    real(wp) :: angle
     angle = 2.0_wp*atan2(height, half_length)
   end function bump_half_angle
 

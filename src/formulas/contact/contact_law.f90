@@ -239,26 +239,23 @@ contains
     real(wp), intent(in) :: force(2)          !! within the limit [N]
     real(wp), intent(in) :: stick_pressing    !! f_0, positive [N]
     real(wp) :: slip(2)                       !! [m]
-
     slip = -force*law%stick_length/(law%friction*stick_pressing)
   end function slip_of_friction
 
   !> Slip from which on a contact slides [m].
-  elemental function drag_length(law, pressing) result(length)
+  elemental real(wp) function drag_length(law, pressing) result(length)
     type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: pressing          !! normal force [N]
-    real(wp) :: length
 
     length = merge(1.0_wp, dragged, law%friction_law == law_coulomb)*law%stick_length
     if (law%stick_pressing > 0.0_wp) length = law%stick_length*pressing/law%stick_pressing
   end function drag_length
 
   !> Whether a contact is open, sticks or slips.
-  elemental function contact_state(law, distance, pressing) result(state)
+  elemental integer function contact_state(law, distance, pressing) result(state)
     type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: distance !! length of the slip [m]
     real(wp), intent(in) :: pressing !! normal force [N]
-    integer :: state
 
     if (.not. pressing > 0.0_wp) then
       state = state_open

@@ -126,9 +126,8 @@ contains
   end function surface_of
 
   !> Whether a surface has an area that faces in the same direction in the whole element.
-  pure function is_element(surface) result(yes)
+  pure logical function is_element(surface) result(yes)
     type(surface_type), intent(in) :: surface
-    logical :: yes
     integer :: a
 
     yes = norm2(surface%area) > least_area*surface%size**2
@@ -270,15 +269,12 @@ contains
   pure function cross(a, b) result(c)
     real(wp), intent(in) :: a(3), b(3)
     real(wp) :: c(3)
-
     c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
   end function cross
 
   !> Determinant of a symmetric matrix.
-  pure function determinant(matrix) result(value)
+  pure real(wp) function determinant(matrix) result(value)
     real(wp), intent(in) :: matrix(2, 2)
-    real(wp) :: value
-
     value = matrix(1, 1)*matrix(2, 2) - matrix(1, 2)**2
   end function determinant
 
@@ -394,8 +390,7 @@ contains
     integer, intent(in) :: element_nodes(:, :) !! (4, elements)
     real(wp), intent(in) :: reach              !! [m]
     real(wp), intent(in) :: allowed            !! by which coordinates may exceed one [1]
-    integer :: next(product(grid%cells) + 1)
-    integer :: low(2), high(2), pass, element, i, j, cell
+    integer :: next(product(grid%cells) + 1), low(2), high(2), pass, element, i, j, cell
 
     next = 0
     do pass = 1, 2
@@ -433,8 +428,7 @@ contains
 
   !> Box in which all points lie that an element may be master of.
   pure function box_around(corner, reach, allowed) result(box)
-    real(wp), intent(in) :: corner(3, master_nodes) !! [m]
-    real(wp), intent(in) :: reach                   !! [m]
+    real(wp), intent(in) :: corner(3, master_nodes), reach !! [m]
     real(wp), intent(in) :: allowed                 !! by which coordinates may exceed one [1]
     real(wp) :: box(3, 2)                           !! lowest and highest [m]
     real(wp) :: margin(3)
@@ -448,10 +442,9 @@ contains
   end function box_around
 
   !> Number of the cell of a point.
-  pure function cell_of(grid, point) result(cell)
+  pure integer function cell_of(grid, point) result(cell)
     type(cell_grid_type), intent(in) :: grid
     real(wp), intent(in) :: point(2) !! along the grid's directions [m]
-    integer :: cell
     integer :: place(2)
 
     place = place_of(grid, point)
@@ -459,11 +452,9 @@ contains
   end function cell_of
 
   !> Number of a cell.
-  pure function number_of(grid, i, j) result(cell)
+  pure integer function number_of(grid, i, j) result(cell)
     type(cell_grid_type), intent(in) :: grid
     integer, intent(in) :: i, j !! its place
-    integer :: cell
-
     cell = i + (j - 1)*grid%cells(1)
   end function number_of
 

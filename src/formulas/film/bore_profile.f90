@@ -30,9 +30,8 @@ module gfb_bore_profile
 contains
 
   !> Whether the bore is not simply a circle.
-  pure function bore_is_present(self) result(present)
+  pure logical function bore_is_present(self) result(present)
     class(bore_profile_type), intent(in) :: self !! the bore
-    logical :: present
     present = self%waves > 0 .or. allocated(self%shim_angle) .or. allocated(self%table_angle)
   end function bore_is_present
 
@@ -112,9 +111,8 @@ contains
   end function bore_kinks
 
   !> Largest height, at a kink or near one of many points around [m].
-  pure function bore_peak(profile) result(peak)
+  pure real(wp) function bore_peak(profile) result(peak)
     type(bore_profile_type), intent(in) :: profile !! the bore
-    real(wp) :: peak
     integer, parameter :: points = 7200
     real(wp), allocatable :: angle(:)
     integer :: i

@@ -36,7 +36,6 @@ contains
     real(wp), intent(in) :: pressure      !! p [Pa]
     real(wp), intent(in) :: gap           !! h [m]
     real(wp) :: peclet                    !! [1]
-
     peclet = 6.0_wp*flow%viscosity*flow%entraining_speed*stream_length/(pressure*gap**2)
   end function cell_peclet
 

@@ -119,7 +119,6 @@ contains
   pure function outer(first, second) result(product)
     real(wp), intent(in) :: first(:), second(:)
     real(wp) :: product(size(first), size(second))
-
     product = spread(first, 2, size(second))*spread(second, 1, size(first))
   end function outer
 end module gfb_film_load

@@ -38,16 +38,8 @@ module gfb_film_surface
     real(wp) :: offset = 0.0_wp !! z_0, of the midplane from the rotor's centre [m]
     real(wp) :: cosine = 1.0_wp, sine = 0.0_wp !! of beta [1]
   contains
-    procedure :: motions
-    procedure :: radius_at
-    procedure :: stretch
-    procedure :: lever
-    procedure :: tilt_arm
-    procedure :: position
-    procedure :: motion
-    procedure :: point_motions
-    procedure :: motion_excess
-    procedure :: gap
+    procedure :: motions, radius_at, stretch, lever, tilt_arm, position, motion, point_motions
+    procedure :: motion_excess, gap
   end type film_surface_type
 
 contains
@@ -82,10 +74,9 @@ contains
   end function motions
 
   !> Distance from the axis [m].
-  elemental function radius_at(self, along) result(radius)
+  elemental real(wp) function radius_at(self, along) result(radius)
     class(film_surface_type), intent(in) :: self !! the surface
     real(wp), intent(in) :: along !! s [m]
-    real(wp) :: radius
     radius = self%origin + along*self%sine
   end function radius_at
 
@@ -106,9 +97,8 @@ contains
   end function lever
 
   !> The size of that lever, by which tilts and torques are made comparable [m].
-  pure function tilt_arm(self) result(arm)
+  pure real(wp) function tilt_arm(self) result(arm)
     class(film_surface_type), intent(in) :: self !! the surface
-    real(wp) :: arm
     arm = abs(self%offset)*self%cosine + self%radius*self%sine
   end function tilt_arm
 
@@ -118,7 +108,6 @@ contains
     real(wp), intent(in) :: angle !! theta [rad]
     real(wp), intent(in) :: along !! s [m]
     real(wp) :: place(3) !! x, y, z [m]
-
     place = [self%radius_at(along)*[cos(angle), sin(angle)], along*self%cosine + self%offset]
   end function position
 
@@ -137,7 +126,6 @@ contains
     real(wp), intent(in) :: angle !! theta [rad]
     real(wp), intent(in) :: lever !! l [m]
     real(wp) :: b(shaft_coordinates)
-
     b = [surface%cosine*[cos(angle), sin(angle)], -surface%sine, lever*[-sin(angle), cos(angle)]]
   end function motion_of
 
@@ -201,7 +189,6 @@ contains
     real(wp), intent(in) :: speed  !! of the shaft [rad/s]
     real(wp), intent(in) :: radius !! of its surface [m]
     real(wp) :: entraining         !! U [m/s]
-
     entraining = 0.5_wp*speed*radius
   end function entraining_speed
 end module gfb_film_surface

@@ -93,10 +93,9 @@ contains
   end function monotone_table
 
   !> Slope between two intervals: their harmonic mean, none at an extremum.
-  elemental function inner_slope(before, after, rise_before, rise_after) result(slope)
+  elemental real(wp) function inner_slope(before, after, rise_before, rise_after) result(slope)
     real(wp), intent(in) :: before, after           !! lengths of the intervals
     real(wp), intent(in) :: rise_before, rise_after !! their mean slopes
-    real(wp) :: slope
 
     slope = 0.0_wp
     if (rise_before*rise_after <= 0.0_wp) return
@@ -105,10 +104,9 @@ contains
   end function inner_slope
 
   !> Slope at an end: that of a parabola through three points, as far as it stays monotone.
-  elemental function end_slope(length, next, rise, next_rise) result(slope)
+  elemental real(wp) function end_slope(length, next, rise, next_rise) result(slope)
     real(wp), intent(in) :: length, next    !! of the last interval and the one beside it
     real(wp), intent(in) :: rise, next_rise !! their mean slopes
-    real(wp) :: slope
 
     slope = ((2.0_wp*length + next)*rise - length*next_rise)/(length + next)
     if (slope*rise <= 0.0_wp) then
@@ -233,11 +231,10 @@ contains
   end subroutine saturate
 
   !> The amount at a pressure on a branch where the pressure rises.
-  pure function root(fluid, pressure, least, most) result(amount)
+  pure real(wp) function root(fluid, pressure, least, most) result(amount)
     type(peng_robinson_type), intent(in) :: fluid
     real(wp), intent(in) :: pressure    !! [Pa]
     real(wp), intent(in) :: least, most !! amounts on the branch [mol/m3]
-    real(wp) :: amount
     integer, parameter :: halvings = 100
     real(wp) :: low, high, here, slope, curvature
     integer :: i
@@ -256,10 +253,9 @@ contains
   end function root
 
   !> Logarithm of the fugacity, over a pressure that does not matter [1].
-  elemental function fugacity(fluid, amount) result(logarithm)
+  elemental real(wp) function fugacity(fluid, amount) result(logarithm)
     type(peng_robinson_type), intent(in) :: fluid
     real(wp), intent(in) :: amount !! c [mol/m3]
-    real(wp) :: logarithm
     real(wp), parameter :: root_two = sqrt(2.0_wp)
     real(wp) :: pressure, slope, curvature, x
 

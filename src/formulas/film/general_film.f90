@@ -163,10 +163,9 @@ contains
   end subroutine add_upwind_derivatives
 
   !> Divergence form of the equation at a point, without second derivatives [Pa m/s].
-  pure function strong_residual(here, flow) result(strong)
+  pure real(wp) function strong_residual(here, flow) result(strong)
     type(point_type), intent(in) :: here
     type(film_flow_type), intent(in) :: flow
-    real(wp) :: strong
 
     associate (x => here%along, z => here%across)
       strong = flow%entraining_speed*(here%gas%r_p*here%p_x*here%h + here%gas%r*here%h_x) &

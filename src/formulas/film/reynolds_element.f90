@@ -130,8 +130,7 @@ contains
     real(wp), intent(in) :: excess(nodes)               !! at the points [m]
     real(wp), intent(in) :: source(nodes)               !! at the nodes [Pa m/s]
     real(wp), intent(out) :: by_pressure(nodes, nodes)  !! [m3/s]
-    real(wp), intent(out) :: by_gap(nodes, nodes)       !! [Pa m2/s]
-    real(wp), intent(out) :: by_excess(nodes, nodes)    !! [Pa m2/s]
+    real(wp), intent(out) :: by_gap(nodes, nodes), by_excess(nodes, nodes)       !! [Pa m2/s]
 
     type(film_state_type) :: state
     real(wp), dimension(nodes) :: x_by_p, z_by_p, x_by_slope
@@ -205,10 +204,9 @@ contains
   end subroutine add_upwind_derivatives
 
   !> Divergence form of the equation at a point, without source and second derivatives [Pa m/s].
-  pure function strong_residual(flow, state) result(strong)
+  pure real(wp) function strong_residual(flow, state) result(strong)
     type(film_flow_type), intent(in) :: flow
     type(film_state_type), intent(in) :: state
-    real(wp) :: strong
 
     strong = flow%entraining_speed*(state%h*state%p_x + state%p*state%h_x) &
       - (state%h**3*(state%p_x**2 + state%p_z**2) + 3.0_wp*state%p*state%h**2* &

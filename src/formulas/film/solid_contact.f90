@@ -26,20 +26,18 @@ module gfb_solid_contact
 contains
 
   !> Pressure of the asperities [Pa].
-  elemental function contact_pressure(contact, gap) result(pressure)
+  elemental real(wp) function contact_pressure(contact, gap) result(pressure)
     type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
     real(wp), intent(in) :: gap !! h [m]
-    real(wp) :: pressure
 
     pressure = 0.0_wp
     if (contact%present) pressure = contact%pressure*exp(-gap/contact%roughness)
   end function contact_pressure
 
   !> Its derivative by the gap [Pa/m].
-  elemental function contact_pressure_rate(contact, gap) result(rate)
+  elemental real(wp) function contact_pressure_rate(contact, gap) result(rate)
     type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
     real(wp), intent(in) :: gap !! h [m]
-    real(wp) :: rate
 
     rate = 0.0_wp
     if (contact%present) rate = -contact_pressure(contact, gap)/contact%roughness

@@ -184,7 +184,6 @@ contains
   pure function shear_weights(xi, eta) result(weight)
     real(wp), intent(in) :: xi, eta    !! in [-1, 1]
     real(wp) :: weight(shear_points)   !! of A, C in the first, of D, B in the second [1]
-
     weight = 0.5_wp*[1.0_wp + eta, 1.0_wp - eta, 1.0_wp + xi, 1.0_wp - xi]
   end function shear_weights
 
@@ -193,8 +192,7 @@ contains
     type(shell_geometry_type), intent(in) :: geometry
     real(wp), intent(in) :: thickness           !! h [m]
     integer, intent(in) :: point                !! one of the four
-    real(wp), intent(out) :: side(3)            !! [m]
-    real(wp), intent(out) :: half_thickness(3)  !! [m]
+    real(wp), intent(out) :: side(3), half_thickness(3)            !! [m]
 
     associate (i => from(point), j => to(point))
       side = 0.5_wp*(geometry%position(:, j) - geometry%position(:, i))
@@ -246,9 +244,8 @@ contains
     real(wp), intent(out) :: stiffness(shell_unknowns, shell_unknowns) !! [N/m], [N], [N m]
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
-    real(wp) :: factor(shell_unknowns, columns)
+    real(wp) :: factor(shell_unknowns, columns), tied(shell_unknowns, shear_points)
     type(shell_turn_type) :: turn
-    real(wp) :: tied(shell_unknowns, shear_points)
     real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
     real(wp), dimension(shell_unknowns) :: shear_xi, shear_eta
     real(wp) :: xi, eta, zeta, weight(shear_points), root(strains)
@@ -543,7 +540,6 @@ contains
   pure function von_mises(plane) result(equivalent)
     real(wp), intent(in) :: plane(3) !! components 11, 22, 12 [Pa]
     real(wp) :: equivalent           !! [Pa]
-
     equivalent = sqrt(plane(1)**2 - plane(1)*plane(2) + plane(2)**2 + 3.0_wp*plane(3)**2)
   end function von_mises
 end module gfb_shell_element

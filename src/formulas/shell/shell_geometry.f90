@@ -111,10 +111,9 @@ contains
   end function corner_sines
 
   !> Whether the Jacobian determinant is positive at the corners of both faces.
-  pure function has_volume(geometry, thickness) result(positive)
+  pure logical function has_volume(geometry, thickness) result(positive)
     type(shell_geometry_type), intent(in) :: geometry
     real(wp), intent(in) :: thickness !! h [m]
-    logical :: positive
     real(wp) :: base(3, 3)
     integer :: corner, face
 
@@ -128,9 +127,8 @@ contains
   end function has_volume
 
   !> Least cosine of the angles between the directors and the normals of their rotation axes.
-  pure function least_turn(geometry) result(least)
+  pure real(wp) function least_turn(geometry) result(least)
     type(shell_geometry_type), intent(in) :: geometry
-    real(wp) :: least
     integer :: a
 
     least = 1.0_wp
@@ -156,9 +154,7 @@ contains
   !> Bilinear shape functions and their derivatives.
   pure subroutine bilinear(xi, eta, shape, by_xi, by_eta)
     real(wp), intent(in) :: xi, eta              !! in [-1, 1]
-    real(wp), intent(out) :: shape(shell_nodes)  !! [1]
-    real(wp), intent(out) :: by_xi(shell_nodes)  !! [1]
-    real(wp), intent(out) :: by_eta(shell_nodes) !! [1]
+    real(wp), intent(out) :: shape(shell_nodes), by_xi(shell_nodes), by_eta(shell_nodes)  !! [1]
 
     shape = 0.25_wp*(1.0_wp + node_xi*xi)*(1.0_wp + node_eta*eta)
     by_xi = 0.25_wp*node_xi*(1.0_wp + node_eta*eta)

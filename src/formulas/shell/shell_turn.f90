@@ -94,8 +94,7 @@ contains
   pure subroutine shell_motion(turn, displacement, translation, change)
     type(shell_turn_type), intent(in) :: turn !! rotations of the directors
     real(wp), intent(in) :: displacement(shell_unknowns) !! u, v, w [m], alpha, beta [rad] a node
-    real(wp), intent(out) :: translation(3, shell_nodes) !! [m]
-    real(wp), intent(out) :: change(3, shell_nodes)      !! [m]
+    real(wp), intent(out) :: translation(3, shell_nodes), change(3, shell_nodes) !! [m]
     integer :: a
 
     do a = 1, shell_nodes

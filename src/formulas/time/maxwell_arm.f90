@@ -23,9 +23,8 @@ module gfb_maxwell_arm
 contains
 
   !> Whether there is an arm.
-  elemental function arm_is_present(self) result(present)
+  elemental logical function arm_is_present(self) result(present)
     class(maxwell_arm_type), intent(in) :: self !! the arm
-    logical :: present
     present = self%stiffness > 0.0_wp
   end function arm_is_present
 

@@ -50,26 +50,15 @@ module gfb_bearing
     type(local_exchange_type) :: exchange  !! between local unknowns and vectors
     integer, private :: changing(contact_name) = 0 !! contact that changes next: its rank from 1, its pad, its number there
   contains
-    procedure :: get_unknowns
-    procedure :: set_unknowns
+    procedure :: get_unknowns, set_unknowns
     procedure :: add_up => add_up_unknowns
-    procedure :: local_size
-    procedure :: film_nodes
-    procedure :: film_pressure
-    procedure :: put_pressure
-    procedure :: film_force
-    procedure :: is_meshed
+    procedure :: local_size, film_nodes, film_pressure, put_pressure, film_force, is_meshed
     procedure :: has_contacts
     procedure :: gap => bearing_gap
     procedure :: solid_pressure
     procedure :: position => bearing_position
     procedure :: eccentricity => bearing_eccentricity
-    procedure :: smallest_gap
-    procedure :: local_force
-    procedure :: reaction
-    procedure :: force_scale
-    procedure :: levers
-    procedure :: equation_scale
+    procedure :: smallest_gap, local_force, reaction, force_scale, levers, equation_scale
     procedure :: begin_path => begin_bearing_path
     procedure :: next_change => next_bearing_change
     procedure :: cross_change => cross_bearing_change
@@ -194,10 +183,9 @@ contains
   end function levers
 
   !> Size of a force: the load, and ambient pressure on the bearing's shadow [N].
-  pure function force_scale(self, point) result(force)
+  pure real(wp) function force_scale(self, point) result(force)
     class(bearing_type), intent(in) :: self !! the bearing
     type(operating_point_type), intent(in), optional :: point !! default: the present one
-    real(wp) :: force
 
     if (present(point)) then
       force = norm2(point%load(:translations)) + self%pad(1)%film%shadow()
@@ -261,9 +249,8 @@ contains
   end function bearing_eccentricity
 
   !> Smallest gap at the present state, over all ranks [m].
-  function smallest_gap(self) result(gap)
+  real(wp) function smallest_gap(self) result(gap)
     class(bearing_type), intent(in) :: self !! the bearing
-    real(wp) :: gap
     real(wp) :: unknown(self%local_size()), depth(1)
 
     call self%get_unknowns(unknown)
@@ -314,16 +301,14 @@ contains
   end subroutine add_up_unknowns
 
   !> Local unknowns of this rank.
-  pure function local_size(self) result(unknowns)
+  pure integer function local_size(self) result(unknowns)
     class(bearing_type), intent(in) :: self !! the bearing
-    integer :: unknowns
     unknowns = self%blocks%local_unknowns()
   end function local_size
 
   !> Film nodes of this rank on all pads.
-  pure function film_nodes(self) result(nodes)
+  pure integer function film_nodes(self) result(nodes)
     class(bearing_type), intent(in) :: self !! the bearing
-    integer :: nodes
     nodes = self%pad(size(self%pad))%last_node
   end function film_nodes
 
@@ -369,9 +354,8 @@ contains
   end function film_force
 
   !> Whether foils have meshes of their own.
-  pure function is_meshed(self) result(meshed)
+  pure logical function is_meshed(self) result(meshed)
     class(bearing_type), intent(in) :: self !! the bearing
-    logical :: meshed
     integer :: i
 
     meshed = .false.
@@ -381,9 +365,8 @@ contains
   end function is_meshed
 
   !> Whether the foils have contacts, on whatever rank.
-  pure function has_contacts(self) result(has)
+  pure logical function has_contacts(self) result(has)
     class(bearing_type), intent(in) :: self !! the bearing
-    logical :: has
     has = self%pad(1)%foil%has_contacts()
   end function has_contacts
 

@@ -1,12 +1,16 @@
 #include "gfb_petsc.h"
-!> From a scene to its equations on a mesh.
+!> From a scene to its equations on a mesh, with the list of foil models: what each word of `&model foil` builds.
+!>
+!> The words and what they mean are the rows of `gfb_model_case`. A new model is a row there, a type of its own that
+!> extends `foil_model_type`, which is the rigid one, and a case of `build_foil`.
 module gfb_bearing_builder
   use petscsys
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
-  use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan
+  use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan, foil_rigid, &
+                            foil_elastic_foundation, foil_beam
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
   use gfb_foil_builder, only: plate_stations, shape_on_pad, gaps_beside
   use gfb_partition, only: division_type, divide, no_chain
@@ -16,14 +20,17 @@ module gfb_bearing_builder
   use gfb_bore_profile, only: bore_kinks
   use gfb_gas_film, only: put_bore
   use gfb_solid_contact, only: solid_contact_type
-  use gfb_foil_models, only: build_foil
   use gfb_changed_foil, only: take_foil_numbers
-  use gfb_foil_model, only: foil_model_type
+  use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_pad, only: pad_place_type, create_pad_film, move_crests
   use gfb_bearing_system, only: bearing_system_type, create_bearing_system
+  use gfb_mesh_dm, only: local_mesh_type
+  use gfb_foundation_foil, only: foundation_foil_type, build_foundation
+  use gfb_shell_foil, only: shell_foil_type, create_shell_foil
+  use gfb_beam_foil, only: beam_foil_type, create_beam_foil
   implicit none (type)
   private
   public :: build_bearing, build_opposite, build_like, take_numbers, divide_bearing, film_mesh_of
@@ -38,7 +45,6 @@ contains
     type(bearing_plan_type), intent(in) :: plan !! what was decided about it
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     type(error_type), allocatable, intent(out) :: error !! why it failed
-
 
     call enter_stage('set-up')
     call build_on_mesh(scene, film_mesh_of(scene, plan), plan%upwind, plan%floats, bearing, error)
@@ -236,4 +242,44 @@ contains
     end associate
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
   end function film_mesh_of
+
+  !> The foil model that a scene asks for, under its film.
+  !>
+  !> Fails where an element of a foil is degenerate.
+  subroutine build_foil(scene, film, mesh, element_nodes, division, foil, error)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    type(local_mesh_type), intent(in) :: mesh   !! this rank's part of the film
+    integer, intent(in) :: element_nodes(:, :)  !! (nodes, elements) its elements, local nodes
+    type(division_type), intent(in) :: division !! of film and bumps
+    !> of the model asked for, ready for the bearing
+    class(foil_model_type), allocatable, intent(out) :: foil
+    type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
+
+    type(foil_model_type), allocatable :: rigid
+    type(foundation_foil_type), allocatable :: foundation
+    type(shell_foil_type), allocatable :: shells
+    type(beam_foil_type), allocatable :: beams
+
+    select case (scene%model%foil)
+    case (foil_rigid)
+      allocate (rigid)
+      call create_rigid_foil(size(mesh%mesh_node), rigid)
+      call move_alloc(rigid, foil)
+    case (foil_elastic_foundation)
+      allocate (foundation)
+      call build_foundation(scene, film, mesh, foundation)
+      call move_alloc(foundation, foil)
+    case (foil_shell)
+      allocate (shells)
+      call create_shell_foil(scene, film, mesh, element_nodes, division, shells, error)
+      if (.not. allocated(error)) call move_alloc(shells, foil)
+    case (foil_beam)
+      allocate (beams)
+      call create_beam_foil(scene, film, mesh, element_nodes, beams)
+      call move_alloc(beams, foil)
+    case default
+      error stop 'a foil model that nothing builds'
+    end select
+  end subroutine build_foil
 end module gfb_bearing_builder

@@ -13,10 +13,8 @@ module gfb_bearing_directions
 contains
 
   !> Whether the top foil has an edge that is fixed nowhere.
-  function has_free_edge(bearing) result(has)
+  logical function has_free_edge(bearing) result(has)
     class(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
-    logical :: has
-
     has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
   end function has_free_edge
 
@@ -32,10 +30,9 @@ contains
 
   !> Mean displacement of the top foil's free edge towards the shaft at the present state, of a pad or of all, over all
   !> ranks [m].
-  function edge_lift(bearing, only) result(lift)
+  real(wp) function edge_lift(bearing, only) result(lift)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in), optional :: only !! pad
-    real(wp) :: lift
     real(wp) :: unknown(bearing%local_size()), total(1)
     integer :: first, last, i
 
@@ -63,10 +60,9 @@ contains
   end subroutine asked_pads
 
   !> Smallest gap over the top foil's free edge at the present state, of a pad or of all, over all ranks [m].
-  function edge_room(bearing, only) result(room)
+  real(wp) function edge_room(bearing, only) result(room)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in), optional :: only !! pad
-    real(wp) :: room
     real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), smallest(1)
     integer :: first, last, i
 
@@ -78,10 +74,9 @@ contains
   end function edge_room
 
   !> Force of the spring that fixes the free edge of a pad's top foil at the point's height, towards the shaft [N].
-  function edge_force(bearing, pad) result(force)
+  real(wp) function edge_force(bearing, pad) result(force)
     class(bearing_system_type), intent(in) :: bearing !! at a point with a fixed edge
     integer, intent(in) :: pad !! its number
-    real(wp) :: force
     force = bearing%point%edge_hold(pad)*(bearing%point%edge_height(pad) - edge_lift(bearing, pad))
   end function edge_force
 

@@ -37,10 +37,7 @@ module gfb_bearing_system
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
-    procedure :: evaluate_at
-    procedure :: linearise_at
-    procedure :: is_open_at
-    procedure :: shaft_column
+    procedure :: evaluate_at, linearise_at, is_open_at, shaft_column
     procedure :: settle => settle_bearing
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
@@ -423,10 +420,9 @@ contains
   end subroutine begin_bearing_step
 
   !> Work of the residual forces on the foils along a step, scaled.
-  function work_on_foils(self, residual, step) result(work)
+  real(wp) function work_on_foils(self, residual, step) result(work)
     class(bearing_system_type), intent(in) :: self !! the bearing's equations
     Vec, intent(in) :: residual, step !! scaled
-    real(wp) :: work
     real(wp) :: share(size(self%pad))
     PetscScalar, pointer :: force(:), change(:)
     PetscErrorCode :: ierr

@@ -54,9 +54,7 @@ module gfb_gas_film
     real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
     real(wp), allocatable :: past(:, :) !! (points, elements) rate of r h by earlier ones [Pa m/s]
   contains
-    procedure :: flow_at
-    procedure :: cell_flow
-    procedure :: shadow
+    procedure :: flow_at, cell_flow, shadow
     procedure :: gap => film_node_gap
     procedure :: excess => film_excess
     procedure :: is_open
@@ -198,9 +196,8 @@ contains
   end function cell_flow
 
   !> Ambient pressure on the surface over a radian, a journal's shadow: the size of a force [N].
-  pure function shadow(self) result(force)
+  pure real(wp) function shadow(self) result(force)
     class(gas_film_type), intent(in) :: self !! this rank's film
-    real(wp) :: force
     force = self%ambient_pressure*self%surface%radius*self%copies*self%width
   end function shadow
 
@@ -402,7 +399,6 @@ contains
     class(gas_film_type), intent(in) :: self !! this rank's film
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp) :: force(film_forces)
-
     force = matmul(self%force_weight, pressure - self%ambient_pressure)
   end function film_node_force
 
@@ -425,12 +421,11 @@ contains
   end function force_without_suction
 
   !> This rank's share of the drag on the shaft [N].
-  pure function film_drag(film, pressure, gap, point) result(drag)
+  pure real(wp) function film_drag(film, pressure, gap, point) result(drag)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     type(operating_point_type), intent(in) :: point !! operating point
-    real(wp) :: drag
     type(film_flow_type) :: flow
     integer :: element
 
@@ -445,13 +440,12 @@ contains
   end function film_drag
 
   !> An element's drag on the shaft [N].
-  pure function element_drag(film, flow, element, pressure, gap, excess) result(drag)
+  pure real(wp) function element_drag(film, flow, element, pressure, gap, excess) result(drag)
     type(gas_film_type), intent(in) :: film
     type(film_flow_type), intent(in) :: flow
     integer, intent(in) :: element
     real(wp), intent(in) :: pressure(:), gap(:) !! at its nodes [Pa], [m]
     real(wp), intent(in) :: excess(:)           !! of the gap at its points, the first ones [m]
-    real(wp) :: drag
 
     if (film%law%plain) then
       drag = film_friction(film%geometry(element), flow, pressure, gap, excess(:size(gap)))
@@ -494,10 +488,9 @@ contains
 
   !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it,
   !> where what it does counts by its radius: torque over the radius R of the surface.
-  pure function film_moment(film, value) result(integral)
+  pure real(wp) function film_moment(film, value) result(integral)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: value(:) !! at the local film nodes, in any unit [SI]
-    real(wp) :: integral
     integer :: element
 
     integral = 0.0_wp
@@ -526,13 +519,12 @@ contains
   end function square_integrals
 
   !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
-  pure function film_peclet(film, point, pressure, gap, change) result(peclet)
+  pure real(wp) function film_peclet(film, point, pressure, gap, change) result(peclet)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     type(operating_point_type), intent(in) :: point !! whose speed counts
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     real(wp), intent(in) :: change      !! least change of the gap in a cell, over the gap [1]
-    real(wp) :: peclet
     type(film_flow_type) :: flow
     integer :: element, i
 
@@ -552,10 +544,9 @@ contains
   end function film_peclet
 
   !> Smallest gap of this rank at z = 0, between nodes where none stands there [m].
-  pure function film_midplane_gap(film, gap) result(smallest)
+  pure real(wp) function film_midplane_gap(film, gap) result(smallest)
     type(gas_film_type), intent(in) :: film !! this rank's share of it
     real(wp), intent(in) :: gap(:) !! at the nodes [m]
-    real(wp) :: smallest
     real(wp) :: share
     integer :: cell, a, b
 

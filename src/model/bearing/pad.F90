@@ -42,13 +42,7 @@ module gfb_pad
     real(wp), allocatable, private :: distance(:)     !! (pairs) between them [m]
     real(wp), private :: solved = 1.0_wp      !! part of the width that is solved [1]
   contains
-    procedure :: add_pull
-    procedure :: add_hold
-    procedure :: hold_stiffness
-    procedure :: add_tension
-    procedure :: tension_block
-    procedure :: lift
-    procedure :: lift_rates
+    procedure :: add_pull, add_hold, hold_stiffness, add_tension, tension_block, lift, lift_rates
     procedure :: pairs
   end type free_edge_type
 
@@ -76,9 +70,7 @@ module gfb_pad
     procedure :: gap => pad_gap
     procedure :: loading
     procedure :: force => pad_force
-    procedure :: unknown_scale
-    procedure :: equation_scale
-    procedure :: row_entries
+    procedure :: unknown_scale, equation_scale, row_entries
   end type pad_type
 
 contains
@@ -145,10 +137,9 @@ contains
   end subroutine find_neighbours
 
   !> Part of the solved width that is nearest to a row.
-  pure function row_share(axial, row) result(share)
+  pure real(wp) function row_share(axial, row) result(share)
     real(wp), intent(in) :: axial(:) !! z of the rows [m]
     integer, intent(in) :: row
-    real(wp) :: share
 
     share = 0.5_wp*(axial(min(row + 1, size(axial))) - axial(max(row - 1, 1)))/ &
       (axial(size(axial)) - axial(1))
@@ -189,10 +180,9 @@ contains
   end subroutine add_hold
 
   !> Derivative of those forces after the unknown of one node, for a stiffness of one [1].
-  elemental function hold_stiffness(self, i) result(stiffness)
+  elemental real(wp) function hold_stiffness(self, i) result(stiffness)
     class(free_edge_type), intent(in) :: self !! the free edge
     integer, intent(in) :: i !! node of the edge
-    real(wp) :: stiffness
     stiffness = self%solved*self%share(i)*self%rate(i)**2
   end function hold_stiffness
 
@@ -392,7 +382,6 @@ contains
     real(wp), intent(in) :: unknown(:) !! the pad's, in SI
     real(wp), intent(in) :: gap(:)     !! at this rank's nodes [m]
     real(wp) :: force(film_forces)
-
     force = self%film%force(self%loading(unknown, gap))
   end function pad_force
 

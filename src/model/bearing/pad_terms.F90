@@ -179,7 +179,6 @@ contains
     type(pad_state_type), intent(in) :: state
     integer, intent(in) :: coordinate
     real(wp), intent(inout) :: column(:), of_shaft(:)
-
     call pad%film%add_shaft_column(state%unknown(:size(state%gap)), state%gap, state%point, coordinate, column)
   end subroutine film_column
 
@@ -358,7 +357,6 @@ contains
     type(shaft_unknowns_type), intent(in) :: shaft !! its unknowns
     real(wp), intent(in) :: stiffness(:, :) !! forces over coordinates [N/m], [N m/rad]
     Mat, intent(in) :: matrix !! of the bearing, by local numbers
-
     call add_block(matrix, shaft%numbers(), shaft%numbers(), transpose(stiffness))
   end subroutine add_shaft_stiffness
 
@@ -392,7 +390,6 @@ contains
     PetscInt, intent(in) :: row(:), column(:) !! local numbers
     real(wp), intent(in) :: block(size(column)*size(row)) !! one row after the other [SI]
     PetscErrorCode :: ierr
-
     PetscCallA(MatSetValuesLocal(matrix, int(size(row), pint), row, int(size(column), pint), column, block, ADD_VALUES, ierr))
   end subroutine add_block
 end module gfb_pad_terms

@@ -104,10 +104,9 @@ contains
   end function line_shares
 
   !> Length of a line [m].
-  pure function line_length(mesh, line) result(length)
+  pure real(wp) function line_length(mesh, line) result(length)
     type(quad_mesh_type), intent(in) :: mesh !! of the strip
     integer, intent(in) :: line(:) !! nodes in order of z
-    real(wp) :: length
 
     if (allocated(mesh%cut)) then
       length = sum(solid_lengths(mesh))

@@ -36,22 +36,9 @@ module gfb_contact_set
     logical :: keeps_friction = .false.        !! what sticks keeps its friction whatever presses, to Coulomb's limit
     logical, allocatable :: closed(:)          !! along a step; before it as the contacts are linearised
   contains
-    procedure :: approach
-    procedure :: next_change
-    procedure :: add_penetration_rate
-    procedure :: settle
-    procedure :: settle_like
-    procedure :: linearise_again
-    procedure :: drop_anchor
-    procedure :: settle_at
-    procedure :: add_forces
-    procedure :: point_block
-    procedure :: point_unknowns
-    procedure :: commit
-    procedure :: friction_work
-    procedure :: penalty_energy
-    procedure :: state_of
-    procedure :: law_of
+    procedure :: approach, next_change, add_penetration_rate, settle, settle_like, linearise_again
+    procedure :: drop_anchor, settle_at, add_forces, point_block, point_unknowns, commit
+    procedure :: friction_work, penalty_energy, state_of, law_of
   end type contact_set_type
 
 contains
@@ -86,11 +73,10 @@ contains
 
   !> The fraction of the path from one displacement to another, or on beyond it, after which a
   !> contact opens or closes; huge where it never does.
-  pure function next_change(self, i, here, ahead) result(fraction)
+  pure real(wp) function next_change(self, i, here, ahead) result(fraction)
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i                      !! contact
     real(wp), intent(in) :: here(:), ahead(:)     !! of the set's unknowns [m]
-    real(wp) :: fraction
     real(wp) :: first(spatial), last(spatial)
 
     fraction = huge(fraction)
@@ -107,7 +93,6 @@ contains
     integer, intent(in) :: i !! contact
     real(wp), intent(in) :: factor !! of the derivatives [1]
     real(wp), intent(inout) :: rate(:) !! by each of the set's unknowns [1]
-
     call add_at_contact(self%point(i), -factor*self%point(i)%frame(:, 3), rate)
   end subroutine add_penetration_rate
 
@@ -239,7 +224,6 @@ contains
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i !! contact
     integer, allocatable :: unknown(:)
-
     unknown = unknowns_of(self%point(i))
   end function point_unknowns
 
@@ -292,10 +276,9 @@ contains
   end subroutine commit
 
   !> Work done against friction since the last commit, by the trapezoid rule [J].
-  pure function friction_work(self, displacement) result(work)
+  pure real(wp) function friction_work(self, displacement) result(work)
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     real(wp), intent(in) :: displacement(:) !! of the set's unknowns [m]
-    real(wp) :: work
     real(wp) :: now(spatial)
     integer :: i
 
@@ -310,9 +293,8 @@ contains
   end function friction_work
 
   !> Energy stored in the penetrations [J].
-  pure function penalty_energy(self) result(energy)
+  pure real(wp) function penalty_energy(self) result(energy)
     class(contact_set_type), intent(in) :: self !! this rank's contacts
-    real(wp) :: energy
     integer :: i
 
     energy = 0.0_wp
@@ -325,10 +307,9 @@ contains
   end function penalty_energy
 
   !> Whether a contact is open, sticks or slips.
-  elemental function state_of(self, i) result(state)
+  elemental integer function state_of(self, i) result(state)
     class(contact_set_type), intent(in) :: self !! this rank's contacts
     integer, intent(in) :: i !! contact
-    integer :: state
     type(contact_law_type) :: law
     real(wp) :: pressing
 

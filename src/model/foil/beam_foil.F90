@@ -134,9 +134,8 @@ contains
   end function stiffness_behind
 
   !> Width that is solved [m].
-  pure function width_of(mesh) result(width)
+  pure real(wp) function width_of(mesh) result(width)
     type(quad_mesh_type), intent(in) :: mesh !! of one of the foils
-    real(wp) :: width
     width = line_length(mesh, [1, mesh%rows])
   end function width_of
 
@@ -155,12 +154,11 @@ contains
   end function beam_surfaces
 
   !> The unknown of a node's station.
-  pure function beam_own_unknown(self, surface, component, node) result(number)
+  pure integer function beam_own_unknown(self, surface, component, node) result(number)
     class(beam_foil_type), intent(in) :: self !! the beam foil
     integer, intent(in) :: surface !! which of `surfaces`
     integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
     integer, intent(in) :: node !! of the surface's whole mesh
-    integer :: number
 
     if (surface == bump_surface) then
       number = self%bump_number(component, (node - 1)/self%bumps%mesh%rows + 1)

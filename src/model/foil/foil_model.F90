@@ -19,6 +19,7 @@ module gfb_foil_model
   use gfb_condensed_piece, only: condensed_piece_type
   implicit none (type)
   private
+  public :: create_rigid_foil
 
   !> A foil model: deflection at the film nodes, equations, their derivatives. A rigid one.
   type, public :: foil_model_type
@@ -39,38 +40,25 @@ module gfb_foil_model
     type(contact_set_type) :: contacts         !! this rank's; their unknowns are the local foil unknowns
     real(wp) :: first_hardness = 1.0_wp        !! factor of their stiffness that a first answer begins with
   contains
-    procedure :: add_residual
-    procedure :: add_jacobian
-    procedure :: add_constant
-    procedure :: add_load_rates
-    procedure :: estimate
-    procedure :: is_meshed
-    procedure :: add_mass
-    procedure :: natural_numbers
-    procedure :: surfaces
-    procedure :: own_unknown
-    procedure :: motions
-    procedure :: nodal_contacts
-    procedure :: sizes
-    procedure :: destroy
-    procedure :: place
-    procedure :: local_unknowns
-    procedure :: own_part
-    procedure :: deflection
-    procedure :: has_contacts
-    procedure :: settle
-    procedure :: begin_step
-    procedure :: settle_at
-    procedure :: commit
-    procedure :: add_springs
-    procedure :: put_damping
-    procedure :: softest
-    procedure :: crest_lengths
-    procedure :: next_contact_change
-    procedure :: add_penetration_rates
+    procedure :: add_residual, add_jacobian, add_constant, add_load_rates, estimate, is_meshed
+    procedure :: add_mass, natural_numbers, surfaces, own_unknown, motions, nodal_contacts, sizes
+    procedure :: destroy, place, local_unknowns, own_part, deflection, has_contacts, settle
+    procedure :: begin_step, settle_at, commit, add_springs, put_damping, softest, crest_lengths
+    procedure :: next_contact_change, add_penetration_rates
   end type foil_model_type
 
 contains
+
+  !> A rigid surface under a film.
+  subroutine create_rigid_foil(nodes, foil)
+    integer, intent(in) :: nodes !! film nodes of this rank
+    type(foil_model_type), intent(out) :: foil !! without unknowns
+
+    allocate (foil%global_unknown(0), foil%unknown_scale(0), foil%equation_scale(0))
+    allocate (foil%row_entries(0))
+    allocate (foil%source(nodes), source=0)
+    allocate (foil%rate(nodes), foil%origin(nodes), source=0.0_wp)
+  end subroutine create_rigid_foil
 
   !> Adds the foil's equations to the local residual of the bearing.
   subroutine add_residual(self, unknown, residual)
@@ -110,9 +98,8 @@ contains
 
   !> Whether top foil and bumps have meshes of their own: the matrix `elastic`, spread over all
   !> ranks, equations that are forces, and edges that can lift.
-  pure function is_meshed(self) result(meshed)
+  pure logical function is_meshed(self) result(meshed)
     class(foil_model_type), intent(in) :: self !! the foil
-    logical :: meshed
     meshed = .false.
   end function is_meshed
 
@@ -145,12 +132,11 @@ contains
 
   !> Local foil unknown of a degree of freedom at one of this rank's own nodes; 0: fixed, or
   !> condensed.
-  pure function own_unknown(self, surface, component, node) result(number)
+  pure integer function own_unknown(self, surface, component, node) result(number)
     class(foil_model_type), intent(in) :: self !! the foil
     integer, intent(in) :: surface   !! which of `surfaces`
     integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
     integer, intent(in) :: node      !! of the surface's whole mesh
-    integer :: number
     number = 0
   end function own_unknown
 
@@ -192,9 +178,8 @@ contains
   end subroutine place
 
   !> Unknowns of the foil that this rank's nodes and equations need.
-  pure function local_unknowns(self) result(unknowns)
+  pure integer function local_unknowns(self) result(unknowns)
     class(foil_model_type), intent(in) :: self !! the foil
-    integer :: unknowns
     unknowns = size(self%global_unknown)
   end function local_unknowns
 
@@ -221,9 +206,8 @@ contains
   end function deflection
 
   !> Whether the foil has contacts, on whatever rank: they open, close and rub.
-  pure function has_contacts(self) result(has)
+  pure logical function has_contacts(self) result(has)
     class(foil_model_type), intent(in) :: self !! the foil
-    logical :: has
     has = allocated(self%contacts%law)
   end function has_contacts
 

@@ -25,12 +25,7 @@ module gfb_foil_momentum
     Vec, private :: way, force       !! work space: from there to a state; its inertia
     type(inner_motion_type) :: inner !! modes inside condensed pieces, where they have any
   contains
-    procedure :: begin
-    procedure :: prepare
-    procedure :: carry
-    procedure :: add_force
-    procedure :: add_stiffness
-    procedure :: destroy
+    procedure :: begin, prepare, carry, add_force, add_stiffness, destroy
   end type foil_momentum_type
 
 contains

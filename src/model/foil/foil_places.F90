@@ -51,10 +51,9 @@ contains
   end function ranges_of
 
   !> Foil's number, from 1, of an unknown of the top foil, from 0; 0 where there is none.
-  elemental function number_of_top(self, number) result(of_foil)
+  elemental integer function number_of_top(self, number) result(of_foil)
     class(foil_ranges_type), intent(in) :: self !! both foils' numbers
     integer, intent(in) :: number !! of the structure, from 0; negative: none
-    integer :: of_foil
     integer :: owner
 
     of_foil = 0
@@ -65,10 +64,9 @@ contains
   end function number_of_top
 
   !> The same of an unknown of the bumps.
-  elemental function number_of_bumps(self, number) result(of_foil)
+  elemental integer function number_of_bumps(self, number) result(of_foil)
     class(foil_ranges_type), intent(in) :: self !! both foils' numbers
     integer, intent(in) :: number !! of the structure, from 0; negative: none
-    integer :: of_foil
 
     of_foil = 0
     if (number < 0) return
@@ -76,10 +74,8 @@ contains
   end function number_of_bumps
 
   !> Height of the top foil's mid-surface: above the crests' by half of both thicknesses [m].
-  pure function top_height(scene) result(height)
+  pure real(wp) function top_height(scene) result(height)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    real(wp) :: height
-
     height = scene%bump_foil%height%value + 0.5_wp*(scene%bump_foil%thickness%value + scene%top_foil%thickness)
   end function top_height
 
@@ -152,8 +148,7 @@ contains
 
   !> Places of numbers in a rising list, 0 where they are not in it.
   pure function place_of(list, numbers) result(place)
-    integer, intent(in) :: list(:)
-    integer, intent(in) :: numbers(:)
+    integer, intent(in) :: list(:), numbers(:)
     integer :: place(size(numbers))
     integer :: i, low, high, middle
 

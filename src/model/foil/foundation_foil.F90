@@ -60,10 +60,9 @@ contains
   end subroutine build_foundation
 
   !> Stiffness of the foundation, as given or by Walowit and Anno [N/m3].
-  pure function foundation_stiffness(model, bump_foil) result(stiffness)
+  pure real(wp) function foundation_stiffness(model, bump_foil) result(stiffness)
     type(model_case_type), intent(in) :: model !! gives the stiffness, or leaves it to the formula
     type(bump_foil_case_type), intent(in) :: bump_foil !! shape and material of the bumps
-    real(wp) :: stiffness
 
     stiffness = model%foundation_stiffness
     if (stiffness > 0.0_wp) return

@@ -241,9 +241,8 @@ contains
   end subroutine meshed_estimate
 
   !> Both foils have meshes.
-  pure function meshed_is_meshed(self) result(meshed)
+  pure logical function meshed_is_meshed(self) result(meshed)
     class(meshed_foil_type), intent(in) :: self !! the foil
-    logical :: meshed
     meshed = .true.
   end function meshed_is_meshed
 

@@ -104,7 +104,6 @@ contains
     integer, intent(in) :: number(:) !! foil's, from 1; 0: fixed
     real(wp), intent(in) :: block(:, :)
     PetscErrorCode :: ierr
-
     PetscCallA(MatSetValues(mass, int(size(number), pint), int(number - 1, pint), int(size(number), pint), int(number - 1, pint), [block], ADD_VALUES, ierr))
   end subroutine add_block
 
@@ -160,12 +159,11 @@ contains
   end function shell_surfaces
 
   !> The structure's number, among those of both.
-  pure function shell_own_unknown(self, surface, component, node) result(number)
+  pure integer function shell_own_unknown(self, surface, component, node) result(number)
     class(shell_foil_type), intent(in) :: self !! the shell foil
     integer, intent(in) :: surface !! which of `surfaces`
     integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
     integer, intent(in) :: node !! of the surface's whole mesh
-    integer :: number
 
     if (surface == bump_surface) then
       number = self%bumps%unknown(component, node) + 1
@@ -252,9 +250,8 @@ contains
   end subroutine work_of_shells
 
   !> Whether an element is another one, moved.
-  pure function is_same(here, other) result(same)
+  pure logical function is_same(here, other) result(same)
     type(shell_geometry_type), intent(in) :: here, other
-    logical :: same
 
     associate (p => here%position - spread(here%position(:, 1), 2, size(here%position, 2)), &
                q => other%position - spread(other%position(:, 1), 2, size(other%position, 2)))
@@ -404,9 +401,8 @@ contains
   end function stations_above
 
   !> Whether a contact has a master of its own.
-  elemental function has_master(point) result(has)
+  elemental logical function has_master(point) result(has)
     type(contact_point_type), intent(in) :: point
-    logical :: has
     has = size(point%share) > 0
   end function has_master
 
@@ -546,9 +542,8 @@ contains
   end subroutine count_entries
 
   !> Crests over the element that has most of them, on this rank.
-  function count_crests(foil) result(most)
+  integer function count_crests(foil) result(most)
     type(shell_foil_type), intent(in) :: foil
-    integer :: most
     integer :: tally(size(foil%global_unknown)), i
 
     tally = 0

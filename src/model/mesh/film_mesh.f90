@@ -228,45 +228,39 @@ contains
   end subroutine find_interval
 
   !> Stations along the shaft's motion.
-  pure function film_stations(self) result(stations)
+  pure integer function film_stations(self) result(stations)
     class(film_mesh_type), intent(in) :: self !! the film's mesh
-    integer :: stations
     stations = size(self%station_angle)
   end function film_stations
 
   !> Rows along the axis.
-  pure function film_rows(self) result(rows)
+  pure integer function film_rows(self) result(rows)
     class(film_mesh_type), intent(in) :: self !! the film's mesh
-    integer :: rows
     rows = size(self%row_axial)
   end function film_rows
 
   !> Nodes of the mesh.
-  pure function film_mesh_nodes(self) result(nodes)
+  pure integer function film_mesh_nodes(self) result(nodes)
     class(film_mesh_type), intent(in) :: self !! the film's mesh
-    integer :: nodes
     nodes = self%stations()*self%rows()
   end function film_mesh_nodes
 
   !> Cells along the shaft's motion.
-  pure function film_circumferential(self) result(elements)
+  pure integer function film_circumferential(self) result(elements)
     class(film_mesh_type), intent(in) :: self !! the film's mesh
-    integer :: elements
     elements = merge(self%stations(), self%stations() - 1, self%periodic)
   end function film_circumferential
 
   !> Cells along the axis of the part that is meshed.
-  pure function film_axial(self) result(elements)
+  pure integer function film_axial(self) result(elements)
     class(film_mesh_type), intent(in) :: self !! the film's mesh
-    integer :: elements
     elements = self%rows() - 1
   end function film_axial
 
   !> Whether the pressure of a node is ambient, [Gu2020] eq. 13.
-  pure function film_is_edge(self, station, row) result(edge)
+  pure logical function film_is_edge(self, station, row) result(edge)
     class(film_mesh_type), intent(in) :: self !! the film's mesh
     integer, intent(in) :: station, row !! from 1
-    logical :: edge
 
     edge = row == self%rows() .or. (row == 1 .and. .not. self%half)
     if (.not. self%periodic) edge = edge .or. station == 1 .or. station == self%stations()

@@ -114,10 +114,9 @@ contains
   end function strips_of_rows
 
   !> Width of one of equal strips [m].
-  pure function strip_width(width, strips, cut) result(strip)
+  pure real(wp) function strip_width(width, strips, cut) result(strip)
     real(wp), intent(in) :: width, cut !! of all, of each cut [m]
     integer, intent(in) :: strips
-    real(wp) :: strip
     strip = (width - real(strips - 1, wp)*cut)/real(strips, wp)
   end function strip_width
 
@@ -163,10 +162,9 @@ contains
   end subroutine join_kinds
 
   !> Radius of the arc [m].
-  elemental function arc_radius(half_length, height) result(radius)
+  elemental real(wp) function arc_radius(half_length, height) result(radius)
     real(wp), intent(in) :: half_length !! l, half the chord [m]
     real(wp), intent(in) :: height      !! h_b, at most l [m]
-    real(wp) :: radius
     radius = (half_length**2 + height**2)/(2.0_wp*height)
   end function arc_radius
 
@@ -201,9 +199,8 @@ contains
   end function arc_normal
 
   !> Half the angle of the arc [rad].
-  pure function half_angle(half_length, height) result(angle)
+  pure real(wp) function half_angle(half_length, height) result(angle)
     real(wp), intent(in) :: half_length, height !! l, h_b [m]
-    real(wp) :: angle
     angle = 2.0_wp*atan2(height, half_length)
   end function half_angle
 

@@ -37,7 +37,6 @@ contains
     integer, intent(in) :: part(:) !! of the chain's pieces
     integer :: column_part(film%order*size(part))
     integer :: i
-
     column_part = [(spread(part(i), 1, film%order), i=1, size(part))]
   end function film_columns
 
@@ -59,7 +58,6 @@ contains
     real(wp), intent(in) :: bound(:) !! of the columns, rising [m]
     integer, intent(in) :: rows      !! nodes of a station
     type(chain_type) :: columns
-
     columns = chain(bound, spread(real(node_unknowns*rows, wp), 1, size(bound) - 1), .false.)
   end function column_chain
 

@@ -51,24 +51,21 @@ module gfb_quad_mesh
 contains
 
   !> Nodes of the whole mesh.
-  pure function whole_nodes(self) result(nodes)
+  pure integer function whole_nodes(self) result(nodes)
     class(quad_mesh_type), intent(in) :: self !! the mesh
-    integer :: nodes
     nodes = self%stations*self%rows
   end function whole_nodes
 
   !> Elements of the whole mesh.
-  pure function whole_elements(self) result(elements)
+  pure integer function whole_elements(self) result(elements)
     class(quad_mesh_type), intent(in) :: self !! the mesh
-    integer :: elements
     elements = max(0, self%stations - 1)*(self%rows - 1)
   end function whole_elements
 
   !> Thickness of an element of its own, 0 where it is the section's [m].
-  pure function own_thickness(mesh, element) result(thickness)
+  pure real(wp) function own_thickness(mesh, element) result(thickness)
     type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     integer, intent(in) :: element !! of the whole mesh
-    real(wp) :: thickness
 
     thickness = 0.0_wp
     if (allocated(mesh%row_thickness)) then
@@ -90,11 +87,10 @@ contains
   end function corner_face
 
   !> Thickness at a node: the mean of the columns beside it, or of its row, or what all have [m].
-  pure function node_thickness(mesh, of_all, node) result(thickness)
+  pure real(wp) function node_thickness(mesh, of_all, node) result(thickness)
     type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     real(wp), intent(in) :: of_all           !! where the mesh has none of its own [m]
     integer, intent(in) :: node              !! of the whole mesh
-    real(wp) :: thickness
     integer :: station
 
     thickness = of_all
@@ -109,10 +105,9 @@ contains
   end function node_thickness
 
   !> Which of the strips side by side a node belongs to; 1 where they do not differ.
-  pure function strip_at(mesh, node) result(strip)
+  pure integer function strip_at(mesh, node) result(strip)
     type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     integer, intent(in) :: node !! of the whole mesh
-    integer :: strip
 
     strip = 1
     if (allocated(mesh%row_strip)) strip = mesh%row_strip(modulo(node - 1, mesh%rows) + 1)
@@ -131,7 +126,6 @@ contains
   pure function loose_rows(mesh) result(loose)
     type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     logical :: loose(mesh%rows)
-
     loose = .not. ([.false., solid_rows(mesh)] .or. [solid_rows(mesh), .false.])
   end function loose_rows
 
@@ -152,10 +146,9 @@ contains
   end function node_set
 
   !> Sets whose names begin so and end with a number.
-  pure function set_count(mesh, beginning) result(sets)
+  pure integer function set_count(mesh, beginning) result(sets)
     type(quad_mesh_type), intent(in) :: mesh !! the foil's mesh
     character(len=*), intent(in) :: beginning !! of the names that are counted
-    integer :: sets
     integer :: i
 
     sets = 0

@@ -59,9 +59,8 @@ contains
   end subroutine find_kinds
 
   !> Kinds among pieces.
-  pure function kind_count(pieces) result(kinds)
+  pure integer function kind_count(pieces) result(kinds)
     type(substructure_type), intent(in) :: pieces(:) !! a substructure
-    integer :: kinds
     integer :: i
 
     kinds = 0
@@ -71,11 +70,10 @@ contains
   end function kind_count
 
   !> Whether one piece is a translated copy of another.
-  pure function are_congruent(mesh, fixed, one, other) result(congruent)
+  pure logical function are_congruent(mesh, fixed, one, other) result(congruent)
     type(quad_mesh_type), intent(in) :: mesh
     logical, intent(in) :: fixed(:, :)
     type(substructure_type), intent(in) :: one, other
-    logical :: congruent
     real(wp) :: shift(3), extent
     integer :: i
 

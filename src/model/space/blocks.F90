@@ -27,9 +27,7 @@ module gfb_blocks
     integer, allocatable :: first_owned(:) !! (blocks + 1) the same of those that this rank owns
     integer, allocatable, private :: block_end(:, :) !! (0:ranks, blocks) unknowns of the ranks so far
   contains
-    procedure :: global_number
-    procedure :: local_unknowns
-    procedure :: create_matrix
+    procedure :: global_number, local_unknowns, create_matrix
   end type blocks_type
 
 contains
@@ -64,11 +62,10 @@ contains
   end subroutine create_blocks
 
   !> Number, from 0, among all unknowns of a block's own one.
-  pure function global_number(self, block, number) result(global)
+  pure integer function global_number(self, block, number) result(global)
     class(blocks_type), intent(in) :: self !! the blocks of unknowns
     integer, intent(in) :: block  !! from 1
     integer, intent(in) :: number !! the block's own, from 1
-    integer :: global
     integer :: owner
 
     owner = owner_of(self%block_end(:, block), number)
@@ -76,10 +73,9 @@ contains
   end function global_number
 
   !> The rank, from 1, in whose range a number lies, by halving.
-  pure function owner_of(range_end, number) result(owner)
+  pure integer function owner_of(range_end, number) result(owner)
     integer, intent(in) :: range_end(0:)
     integer, intent(in) :: number !! from 1
-    integer :: owner
     integer :: below, middle
 
     below = 0 ! its range ends before the number
@@ -95,9 +91,8 @@ contains
   end function owner_of
 
   !> Local unknowns of this rank, with the scalars.
-  pure function local_unknowns(self) result(unknowns)
+  pure integer function local_unknowns(self) result(unknowns)
     class(blocks_type), intent(in) :: self !! the blocks of unknowns
-    integer :: unknowns
     unknowns = size(self%global)
   end function local_unknowns
 

@@ -19,12 +19,7 @@ module gfb_border_rows
     integer :: unknowns = 0        !! on all ranks, with the scalars
     logical :: last_rank = .false. !! this rank owns the scalars and their equations
   contains
-    procedure :: create_matrix
-    procedure :: set_row
-    procedure :: values
-    procedure :: set_values
-    procedure :: join
-    procedure :: split
+    procedure :: create_matrix, set_row, values, set_values, join, split
     procedure, private :: inner
   end type border_type
 
@@ -45,9 +40,8 @@ contains
   end subroutine create_border
 
   !> This rank's unknowns without the scalars.
-  pure function inner(self) result(owned)
+  pure integer function inner(self) result(owned)
     class(border_type), intent(in) :: self !! the scalar unknowns
-    integer :: owned
     owned = self%owned - merge(self%scalars, 0, self%last_rank)
   end function inner
 

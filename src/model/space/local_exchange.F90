@@ -13,9 +13,7 @@ module gfb_local_exchange
     Vec, private :: local
     VecScatter, private :: ghosts
   contains
-    procedure :: get
-    procedure :: put
-    procedure :: add
+    procedure :: get, put, add
     procedure, private :: fill
     procedure :: destroy
   end type local_exchange_type

@@ -118,8 +118,7 @@ contains
 
   !> A DMPlex of which every rank holds a share: cells and vertices, no edges, as none has unknowns.
   subroutine create_whole(communicator, stations, rows, periodic, whole)
-    integer, intent(in) :: communicator
-    integer, intent(in) :: stations, rows
+    integer, intent(in) :: communicator, stations, rows
     logical, intent(in) :: periodic
     DM, intent(out) :: whole
 
@@ -153,10 +152,8 @@ contains
 
   !> Tells the DMPlex which rank each of this rank's cells goes to.
   subroutine set_partition(communicator, whole, column_part, cells_a_column)
-    integer, intent(in) :: communicator
+    integer, intent(in) :: communicator, column_part(:), cells_a_column
     DM, intent(in) :: whole
-    integer, intent(in) :: column_part(:)
-    integer, intent(in) :: cells_a_column
 
     PetscInt, allocatable :: sizes(:), cells(:)
     integer :: part, column, filled, share(2), ranks, i

@@ -22,12 +22,7 @@ module gfb_nonlinear_system
     integer :: times_filled = 0     !! the matrix, by whomever
     logical :: settled = .true.     !! no contact is linearised away from where it is
   contains
-    procedure :: settle
-    procedure :: begin_step
-    procedure :: virtual_work
-    procedure :: begin_path
-    procedure :: next_change
-    procedure :: cross_change
+    procedure :: settle, begin_step, virtual_work, begin_path, next_change, cross_change
     procedure(evaluate), deferred :: evaluate
     procedure(linearise), deferred :: linearise
   end type nonlinear_system_type
@@ -69,10 +64,9 @@ contains
 
   !> Work of a structure's residual forces along a step, scaled; where a structure is in equilibrium
   !> it changes its sign along the step. Here there is none.
-  function virtual_work(self, residual, step) result(work)
+  real(wp) function virtual_work(self, residual, step) result(work)
     class(nonlinear_system_type), intent(in) :: self !! the equations
     Vec, intent(in) :: residual, step !! scaled
-    real(wp) :: work
     work = 0.0_wp
   end function virtual_work
 

@@ -163,22 +163,19 @@ contains
   end subroutine stop_petsc
 
   !> This process' rank, from 0.
-  function this_rank() result(rank)
-    integer :: rank
+  integer function this_rank() result(rank)
     PetscErrorCode :: ierr
     call MPI_Comm_rank(PETSC_COMM_WORLD, rank, ierr)
   end function this_rank
 
   !> Ranks of the job.
-  function rank_count() result(ranks)
-    integer :: ranks
+  integer function rank_count() result(ranks)
     PetscErrorCode :: ierr
     call MPI_Comm_size(PETSC_COMM_WORLD, ranks, ierr)
   end function rank_count
 
   !> Ranks that share the memory of a machine, on the machine with most of them.
-  function ranks_on_node() result(ranks)
-    integer :: ranks
+  integer function ranks_on_node() result(ranks)
     GFB_COMM :: node
     integer :: here
     PetscErrorCode :: ierr
@@ -202,8 +199,7 @@ contains
   end function petsc_version_text
 
   !> Wall-clock time since an arbitrary moment [s].
-  function wall_time() result(seconds)
-    real(wp) :: seconds
+  real(wp) function wall_time() result(seconds)
     seconds = MPI_Wtime()
   end function wall_time
 
@@ -224,23 +220,20 @@ contains
   end function largest_over_ranks
 
   !> The largest of numbers from 1 on all ranks, 0 where there are none.
-  function largest_number(number) result(largest)
+  integer function largest_number(number) result(largest)
     integer, intent(in) :: number(:) !! of this rank
-    integer :: largest
     largest = nint(maxval(largest_over_ranks([real(maxval([0, number]), wp)])))
   end function largest_number
 
   !> Whether something is true on any rank.
-  function any_rank(truth) result(any_true)
+  logical function any_rank(truth) result(any_true)
     logical, intent(in) :: truth !! of this rank
-    logical :: any_true
     PetscErrorCode :: ierr
     call MPI_Allreduce(truth, any_true, 1, MPI_LOGICAL, MPI_LOR, PETSC_COMM_WORLD, ierr)
   end function any_rank
 
   !> Whether a signal or the time limit asks the run to stop, on any rank; all ranks ask at the same point.
-  function stop_is_asked() result(asked)
-    logical :: asked
+  logical function stop_is_asked() result(asked)
     PetscErrorCode :: ierr
     integer :: signal
 
@@ -301,8 +294,7 @@ contains
 
   !> Numbers, from 0, of the components of entries that are numbered from 1.
   pure function spread_numbers(number, components) result(list)
-    integer, intent(in) :: number(:)
-    integer, intent(in) :: components
+    integer, intent(in) :: number(:), components
     PetscInt :: list(components*size(number))
     integer :: i, k
 

@@ -57,18 +57,8 @@ module gfb_strip_system
     real(wp), allocatable, private :: local_unit(:) !! of the contacts' unknowns
     logical, private :: created = .false.
   contains
-    procedure :: evaluate
-    procedure :: linearise
-    procedure :: find_motions
-    procedure :: settle
-    procedure :: begin_step
-    procedure :: virtual_work
-    procedure :: set_factor
-    procedure :: commit
-    procedure :: contact_displacements
-    procedure :: foil_solution
-    procedure :: plate_travel
-    procedure :: strain_energy
+    procedure :: evaluate, linearise, find_motions, settle, begin_step, virtual_work, set_factor
+    procedure :: commit, contact_displacements, foil_solution, plate_travel, strain_energy
     procedure :: stiffness_round_off
   end type strip_system_type
 
@@ -165,9 +155,8 @@ contains
   end subroutine create_matrices
 
   !> Unit of energy [J].
-  pure function energy(strip) result(unit)
+  pure real(wp) function energy(strip) result(unit)
     type(strip_system_type), intent(in) :: strip
-    real(wp) :: unit
     unit = strip%scale%force*strip%scale%length
   end function energy
 
@@ -274,10 +263,9 @@ contains
   end subroutine begin_step
 
   !> Work of the residual forces along a step, scaled.
-  function virtual_work(self, residual, step) result(work)
+  real(wp) function virtual_work(self, residual, step) result(work)
     class(strip_system_type), intent(in) :: self !! the strip
     Vec, intent(in) :: residual, step !! scaled
-    real(wp) :: work
     PetscScalar :: product
     PetscErrorCode :: ierr
 
@@ -333,9 +321,8 @@ contains
 
   !> Displacement of the plate towards the sleeve [m]; zero without one. One whose force is given lies on
   !> the highest crest at rest.
-  function plate_travel(self) result(displacement)
+  real(wp) function plate_travel(self) result(displacement)
     class(strip_system_type), intent(in) :: self !! the strip
-    real(wp) :: displacement
 
     displacement = 0.0_wp
     if (self%plate == plate_moved) displacement = self%factor*self%plate_displacement
@@ -344,9 +331,8 @@ contains
   end function plate_travel
 
   !> Energy of the foil's deformation [J].
-  function strain_energy(self) result(stored)
+  real(wp) function strain_energy(self) result(stored)
     class(strip_system_type), intent(in) :: self !! the strip
-    real(wp) :: stored
     PetscScalar :: product
     PetscErrorCode :: ierr
 
@@ -358,9 +344,8 @@ contains
   !> Relative error of the foil's stiffness against the present displacements: how far the energy
   !> that its matrix gives is from that of the strains. It is round-off, and large in thin foils
   !> alone.
-  function stiffness_round_off(self) result(error)
+  real(wp) function stiffness_round_off(self) result(error)
     class(strip_system_type), intent(in) :: self !! the strip
-    real(wp) :: error
     type(error_type), allocatable :: degenerate
     real(wp) :: exact(1, 1)
     Vec :: solution

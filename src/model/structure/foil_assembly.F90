@@ -104,9 +104,8 @@ contains
   contains
 
     !> Whether the columns before and behind a station are different ranks'.
-    pure function is_seam(station) result(seam)
+    pure logical function is_seam(station) result(seam)
       integer, intent(in) :: station
-      logical :: seam
 
       seam = .false.
       if (station == 1 .or. station > size(column_part)) return

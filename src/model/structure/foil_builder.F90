@@ -132,7 +132,6 @@ contains
   function strip_shape(scene) result(shape)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(strip_shape_type) :: shape
-
     shape = shape_of(scene, scene%bump_foil)
   end function strip_shape
 

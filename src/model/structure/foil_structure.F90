@@ -40,11 +40,7 @@ module gfb_foil_structure
     integer, allocatable :: column_part(:)   !! rank, from 1, of every column of elements
     logical :: created = .false.             !! the matrix is there
   contains
-    procedure :: unknown
-    procedure :: numbers_at
-    procedure :: natural_numbers
-    procedure :: displacements
-    procedure :: row_entries
+    procedure :: unknown, numbers_at, natural_numbers, displacements, row_entries
   end type foil_structure_type
 
 contains
@@ -111,10 +107,9 @@ contains
     Mat, intent(out) :: matrix !! of all its unknowns, on this rank alone
     type(error_type), allocatable, intent(out) :: error !! error, if an element is degenerate
 
-    integer :: number(node_unknowns, size(substructure%nodes))
+    integer :: number(node_unknowns, size(substructure%nodes)), i, unknowns
     real(wp) :: block(shell_unknowns, shell_unknowns)
     PetscErrorCode :: ierr
-    integer :: i, unknowns
 
     number = piece_numbers(free, substructure)
     unknowns = maxval(number)
@@ -140,7 +135,6 @@ contains
     logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure !! whose unknowns they are
     logical, allocatable :: is_retained(:)
-
     is_retained = pack(spread(substructure%retained, 1, node_unknowns), piece_unknowns(free, substructure))
   end function retained_in_piece
 
@@ -150,7 +144,6 @@ contains
     logical, intent(in) :: free(:, :) !! (5, the piece's nodes) not fixed by a support
     type(substructure_type), intent(in) :: substructure !! whose unknowns they are
     logical :: has(node_unknowns, size(substructure%nodes))
-
     has = free .or. spread(substructure%retained, 1, node_unknowns)
   end function piece_unknowns
 
@@ -234,9 +227,8 @@ contains
   end subroutine create_foil_matrix
 
   !> Entries of a row of the foil's matrix, at most.
-  pure function row_entries(self) result(entries)
+  pure integer function row_entries(self) result(entries)
     class(foil_structure_type), intent(in) :: self !! the foil
-    integer :: entries
     integer :: i, retained
 
     entries = element_row
@@ -267,11 +259,10 @@ contains
   end function numbers_at
 
   !> Global number, from 0, of a component at a node of this rank; -1 where it has none.
-  pure function unknown(self, component, node) result(number)
+  pure integer function unknown(self, component, node) result(number)
     class(foil_structure_type), intent(in) :: self !! the foil
     integer, intent(in) :: component !! 1 to 5: u, v, w, alpha, beta
     integer, intent(in) :: node      !! of the whole mesh
-    integer :: number
 
     number = -1
     if (node < lbound(self%local_node, 1) .or. node > ubound(self%local_node, 1)) return

@@ -29,10 +29,9 @@ module gfb_foil_surface
 contains
 
   !> Whether this rank owns a node.
-  pure function owns(self, node) result(mine)
+  pure logical function owns(self, node) result(mine)
     class(foil_surface_type), intent(in) :: self !! the surface
     integer, intent(in) :: node !! of the whole mesh
-    logical :: mine
 
     mine = .false.
     if (node < lbound(self%local_node, 1) .or. node > ubound(self%local_node, 1)) return

@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> The inertia of fixed-interface modes inside condensed pieces, over a step of time.
 !>
-!> Each mode follows the retained unknowns u of its piece (`gfb_modal_step`), its amplitude is no unknown of the
+!> Each mode follows the retained unknowns u of its piece (`gfb_backward_difference`), its amplitude is no unknown of the
 !> step. With the way \( w = u - \hat u \) from where the foil would be without any force
 !>
 !> $$ f = \sum_i m_i \ddot\eta_i, \qquad
@@ -25,7 +25,7 @@ module gfb_inner_motion
   use gfb_petsc_session, only: largest_number
   use gfb_natural_order, only: natural_order_type, visit_field
   use gfb_backward_difference, only: free_value, newest_rate
-  use gfb_modal_step, only: modal_amplitude, modal_acceleration
+  use gfb_backward_difference, only: modal_amplitude, modal_acceleration
   implicit none (type)
   private
   public :: inner_block, inner_block_rate, add_to_pieces
@@ -53,13 +53,7 @@ module gfb_inner_motion
     Vec, private :: left, right              !! these scales
     Vec, private :: drive, force             !! work space: one a mode; one an unknown
   contains
-    procedure :: begin
-    procedure :: prepare
-    procedure :: carry
-    procedure :: add_force
-    procedure :: add_stiffness
-    procedure :: visit
-    procedure :: destroy
+    procedure :: begin, prepare, carry, add_force, add_stiffness, visit, destroy
     procedure, private :: driven_by
   end type inner_motion_type
 

@@ -73,8 +73,7 @@ contains
   pure recursive subroutine sort_by(key, list)
     real(wp), intent(in) :: key(:)
     integer, intent(inout) :: list(:) !! places in `key`
-    integer :: merged(size(list))
-    integer :: left, right, half, i
+    integer :: merged(size(list)), left, right, half, i
     logical :: take_left
 
     half = size(list)/2
@@ -98,11 +97,9 @@ contains
   end subroutine sort_by
 
   !> Whether one number stands before another.
-  pure function comes_first(key, one, other) result(before)
+  pure logical function comes_first(key, one, other) result(before)
     real(wp), intent(in) :: key(:)
     integer, intent(in) :: one, other
-    logical :: before
-
     before = key(one) < key(other) .or. (key(one) <= key(other) .and. one < other)
   end function comes_first
 
@@ -195,8 +192,7 @@ contains
     integer, intent(in) :: patches
     integer, allocatable, intent(out) :: member(:)
     integer, allocatable, intent(out) :: start(:) !! (patches + 1) number of its first in `member`
-    integer :: next(patches)
-    integer :: i
+    integer :: next(patches), i
 
     allocate (member(size(number)), start(patches + 1), source=0)
     do i = 1, size(number)
@@ -304,10 +300,9 @@ contains
   end subroutine smooth_motions
 
   !> Largest eigenvalue of a matrix whose rows are divided by its diagonal, from below.
-  function largest_eigenvalue(matrix, inverse) result(eigenvalue)
+  real(wp) function largest_eigenvalue(matrix, inverse) result(eigenvalue)
     Mat, intent(in) :: matrix
     Vec, intent(in) :: inverse !! of the diagonal
-    real(wp) :: eigenvalue
 
     Vec :: direction, image
     PetscScalar, pointer :: value(:)
@@ -339,7 +334,6 @@ contains
     integer, intent(in) :: numbers
     real(wp) :: pattern(numbers)
     integer :: i
-
     pattern = [(1.0_wp + sin(real(7*(before + i), wp)), i=1, numbers)]
   end function some_pattern
 end module gfb_rigid_modes

@@ -76,7 +76,6 @@ contains
     character(len=*), intent(in) :: meaning !! of the field, in words
     real(wp), intent(in) :: moved(:, :) !! (5, local nodes) [m], [rad]
     type(result_grid_type), intent(inout) :: grid !! of the foil, gets the field
-
     call add_node_field(foil, name, 'm', meaning, moved(:3, :), grid)
   end subroutine add_displacement
 
@@ -179,9 +178,8 @@ contains
   end function own_columns
 
   !> Rows of the whole width.
-  pure function full_rows(foil) result(rows)
+  pure integer function full_rows(foil) result(rows)
     class(foil_surface_type), intent(in) :: foil
-    integer :: rows
     rows = foil%mesh%rows
     if (foil%mesh%half) rows = 2*rows - 1
   end function full_rows
@@ -219,11 +217,10 @@ contains
   end subroutine solved_node
 
   !> The solved element that a cell of the whole width is, or mirrors.
-  pure function solved_cell(foil, kept, cell) result(element)
+  pure integer function solved_cell(foil, kept, cell) result(element)
     class(foil_surface_type), intent(in) :: foil
     integer, intent(in) :: kept(:) !! of `kept_columns`
     integer, intent(in) :: cell    !! from 1
-    integer :: element
     integer :: half, column
 
     half = foil%mesh%rows - 1

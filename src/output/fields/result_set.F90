@@ -127,9 +127,8 @@ contains
   end subroutine keep_all
 
   !> Surfaces of a series, which has none without a step.
-  pure function surfaces_of(series) result(number)
+  pure integer function surfaces_of(series) result(number)
     type(grid_series_type), intent(in) :: series
-    integer :: number
 
     number = 0
     if (allocated(series%surface)) number = size(series%surface)

@@ -139,17 +139,15 @@ contains
   end subroutine remove_unanswered
 
   !> Whether an earlier run has left an answer of a case.
-  function has_answer(stem) result(truth)
+  logical function has_answer(stem) result(truth)
     character(len=*), intent(in) :: stem !! folder and name of the case
-    logical :: truth
     truth = says(stem, 'converged = true')
   end function has_answer
 
   !> Whether a summary is there and has a line.
-  function says(stem, line) result(truth)
+  logical function says(stem, line) result(truth)
     character(len=*), intent(in) :: stem !! folder and name of the summary
     character(len=*), intent(in) :: line
-    logical :: truth
     character(len=40) :: words
     integer :: unit, status
 

@@ -171,9 +171,8 @@ contains
   !> A count as a list of one, one entry a piece.
   subroutine put_count(file, name, number, meaning)
     type(result_file_type), intent(inout) :: file
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name, meaning
     integer, intent(in) :: number
-    character(len=*), intent(in) :: meaning
 
     if (file%first_rank) then
       call file%put_long_block(group//'/'//name, [int(number, long)], 0, 1, meaning)

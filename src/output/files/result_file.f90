@@ -36,20 +36,9 @@ module gfb_result_file
     integer(hid_t), private :: file = -1
   contains
     procedure :: group => add_group
-    procedure :: need_group
-    procedure :: put_text
-    procedure :: put_words
-    procedure :: put_numbers
-    procedure :: put_scalar
-    procedure :: put_block
-    procedure :: put_long_block
-    procedure :: put_byte_block
-    procedure :: mark_text
-    procedure :: mark_longs
-    procedure, private :: put_parts
-    procedure, private :: put_texts
-    procedure, private :: put_whole
-    procedure, private :: describe
+    procedure :: need_group, put_text, put_words, put_numbers, put_scalar, put_block, put_long_block
+    procedure :: put_byte_block, mark_text, mark_longs
+    procedure, private :: put_parts, put_texts, put_whole, describe
   end type result_file_type
 
 contains
@@ -216,7 +205,6 @@ contains
   !> Removes a file that was not kept.
   subroutine drop_result_file(file)
     type(result_file_type), intent(inout) :: file !! the file being written
-
     call drop_unfinished(file%written)
   end subroutine drop_result_file
 

@@ -20,16 +20,12 @@ module gfb_stored_file
     character(len=:), allocatable :: refused !! what was not read on purpose, and why, or empty
     integer(hid_t), private :: file = -1
   contains
-    procedure :: has
-    procedure :: words
-    procedure :: scalar
+    procedure :: has, words, scalar
     procedure :: count => whole_number
     procedure :: numbers
     procedure :: block => block_of_rank
     procedure :: find_shape
-    procedure, private :: open_dataset
-    procedure, private :: refuse
-    procedure, private :: lose
+    procedure, private :: open_dataset, refuse, lose
   end type stored_file_type
 
 contains
@@ -79,15 +75,13 @@ contains
   subroutine close_stored_file(file)
     type(stored_file_type), intent(inout) :: file !! the file being read
     integer :: status
-
     call h5fclose_f(file%file, status)
   end subroutine close_stored_file
 
   !> Whether there is a dataset or group of this path, in a group that is there.
-  function has(self, path) result(there)
+  logical function has(self, path) result(there)
     class(stored_file_type), intent(in) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    logical :: there
     integer :: status
 
     call h5lexists_f(self%file, path, there, status)
@@ -111,10 +105,9 @@ contains
   end function words
 
   !> One number.
-  function scalar(self, path) result(number)
+  real(wp) function scalar(self, path) result(number)
     class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    real(wp) :: number
     real(wp), target :: value
     type(c_ptr) :: address
     integer(hid_t) :: dataset
@@ -131,10 +124,9 @@ contains
   end function scalar
 
   !> One whole number.
-  function whole_number(self, path) result(number)
+  integer function whole_number(self, path) result(number)
     class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    integer :: number
     number = nint(self%scalar(path))
   end function whole_number
 
@@ -309,10 +301,9 @@ contains
   end function name_of
 
   !> Whether a dataset is a list, or has so many components.
-  function has_shape(space, rank, components) result(fits)
+  logical function has_shape(space, rank, components) result(fits)
     integer(hid_t), intent(in) :: space
     integer, intent(in) :: rank, components !! that it should have
-    logical :: fits
     integer(hsize_t) :: extent(2), most(2)
     integer :: status, found
 

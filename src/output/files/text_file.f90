@@ -108,9 +108,8 @@ contains
   end subroutine write_table_file
 
   !> Length of the longest word there is to write.
-  pure function longest(members) result(length)
+  pure integer function longest(members) result(length)
     type(table_member_type), intent(in) :: members(:)
-    integer :: length
     integer :: i
 
     length = 1

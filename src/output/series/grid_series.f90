@@ -176,9 +176,8 @@ contains
   !> Numbers that the first rank has.
   subroutine put_columns(file, path, columns, unit, meaning)
     type(result_file_type), intent(inout) :: file
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path, unit, meaning
     type(columns_type), intent(in) :: columns
-    character(len=*), intent(in) :: unit, meaning
     integer :: used
 
     used = merge(columns%used, 0, file%first_rank)
@@ -192,7 +191,6 @@ contains
     integer(long), intent(in) :: list(:)
     character(len=*), intent(in) :: meaning
     integer, intent(in), optional :: shape(:) !! of an entry
-
     call file%put_long_block(grid_group//'/'//path, list, 0, size(list), meaning, shape)
   end subroutine put_list
 
@@ -321,10 +319,9 @@ contains
   end function gathered
 
   !> Whether the last columns are these.
-  pure function ends_with(columns, last) result(same)
+  pure logical function ends_with(columns, last) result(same)
     type(columns_type), intent(in) :: columns
     real(wp), intent(in) :: last(:, :)
-    logical :: same
     integer :: before
 
     before = columns%used - size(last, 2)

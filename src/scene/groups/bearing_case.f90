@@ -1,19 +1,23 @@
-!> `&bearing` and `&pads`: the pad, or several equal ones with their preload.
+!> `&bearing` and `&pads`: the pad, or several equal ones with their preload; `&bore`: where the
+!> bore is no circle.
 module gfb_bearing_case
   use gfb_kinds, only: wp, most_pads
   use gfb_units, only: turn
-  use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive
+  use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive, &
+                           longest_list, any_value, not_negative, rule_type
   use gfb_text, only: text
+  use gfb_bore_profile, only: bore_profile_type, bore_height, bore_peak
   implicit none (type, external)
   private
-  public :: bearing_case_type, read_bearing_case, pad_angle, pad_length, pad_turn, preload_angle, &
-            read_pads_case
+  public :: bearing_case_type, bore_case_type, read_bearing_case, read_pads_case, read_bore_case
+  public :: pad_angle, pad_length, pad_turn, preload_angle
 
   integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
   integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
 
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'slit', 'periodic']
-  character(len=*), parameter :: group = 'pads'
+  character(len=*), parameter :: pads_group = 'pads', bore_group = 'bore'
+  real(wp), parameter :: most_waves = 1000.0_wp !! of a bore; more are roughness, which no mesh has
   real(wp), parameter :: rounding = 1.0e-9_wp !! of angles that are meant to be equal [rad]
 
   !> The pad.
@@ -29,6 +33,12 @@ module gfb_bearing_case
     real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
     real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
   end type bearing_case_type
+
+  !> The bore.
+  type :: bore_case_type
+    logical :: present = .false.       !! the file has the group
+    type(bore_profile_type) :: profile !! its height over the circle
+  end type bore_case_type
 
 contains
 
@@ -61,34 +71,30 @@ contains
   end subroutine read_bearing_case
 
   !> Angle that the pad covers [rad].
-  elemental function pad_angle(bearing) result(angle)
+  elemental real(wp) function pad_angle(bearing) result(angle)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-    real(wp) :: angle
     angle = turn - bearing%leading_edge_angle
     if (bearing%arc > 0.0_wp) angle = bearing%arc
   end function pad_angle
 
   !> Angle from the first pad to another [rad].
-  elemental function pad_turn(bearing, pad) result(angle)
+  elemental real(wp) function pad_turn(bearing, pad) result(angle)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     integer, intent(in) :: pad !! its number, from 1
-    real(wp) :: angle
     angle = turn*real(pad - 1, wp)/real(bearing%pads, wp)
   end function pad_turn
 
   !> Where the preload narrows the gap of a pad most, theta_p [rad].
-  elemental function preload_angle(bearing, pad) result(angle)
+  elemental real(wp) function preload_angle(bearing, pad) result(angle)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     integer, intent(in) :: pad !! its number, from 1
-    real(wp) :: angle
     angle = bearing%leading_edge_angle + pad_turn(bearing, pad) &
             + bearing%preload_offset*pad_angle(bearing)
   end function preload_angle
 
   !> Length of the unrolled pad [m].
-  elemental function pad_length(bearing) result(length)
+  elemental real(wp) function pad_length(bearing) result(length)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-    real(wp) :: length
     length = bearing%radius*pad_angle(bearing)
   end function pad_length
 
@@ -101,7 +107,7 @@ contains
 
     first = bearing%leading_edge_angle
     gap = 0.0_wp
-    call keys%start_group(group, optional=.true., misplaced=misplaced)
+    call keys%start_group(pads_group, optional=.true., misplaced=misplaced)
     call keys%integer_key('count', bearing%pads, 'pads, equal and equally spaced', &
                           from_to(1.0_wp, real(most_pads, wp)))
     call keys%real_key('arc', bearing%arc, 'rad', 'of one pad, from its leading to its '// &
@@ -120,8 +126,8 @@ contains
     call check_edges(keys, bearing, first)
     call check_arc(keys, bearing, gap)
     bearing%leading_edge_angle = first
-    if (keys%meant(group, 'arc')) return
-    if (bearing%pads > 1 .or. keys%meant(group, 'gap')) then
+    if (keys%meant(pads_group, 'arc')) return
+    if (bearing%pads > 1 .or. keys%meant(pads_group, 'gap')) then
       bearing%arc = max(turn/bearing%pads - gap, rounding)
     end if
   end subroutine read_pads_case
@@ -136,13 +142,14 @@ contains
     logical :: periodic
 
     periodic = bearing%leading_edge_condition == leading_edge_periodic
-    call keys%rule(group, 'first_leading_edge', keys%meant('bearing', 'leading_edge_angle') .and. &
-                   keys%meant(group, 'first_leading_edge') .and. &
+    call keys%rule(pads_group, 'first_leading_edge', &
+                   keys%meant('bearing', 'leading_edge_angle') .and. &
+                   keys%meant(pads_group, 'first_leading_edge') .and. &
                    abs(first - bearing%leading_edge_angle) > rounding, 'contradicts '// &
                    'leading_edge_angle in &bearing, '//text(bearing%leading_edge_angle)// &
                    ' rad: give one of them')
-    call keys%refuse(group, 'arc, gap, first_leading_edge', periodic, ring)
-    call keys%refuse(group, 'count', periodic .and. bearing%pads > 1, ring)
+    call keys%refuse(pads_group, 'arc, gap, first_leading_edge', periodic, ring)
+    call keys%refuse(pads_group, 'count', periodic .and. bearing%pads > 1, ring)
   end subroutine check_edges
 
   !> Whether the pads fit into the circle.
@@ -155,13 +162,217 @@ contains
 
     share = turn/bearing%pads
     room = text(share, 7)//' rad, 2 pi over count'
-    if (keys%meant(group, 'arc') .and. bearing%arc > share + rounding) then
-      call keys%complain(group, 'arc', 'must not be longer than '//room//': the pads overlap')
-    else if (keys%meant(group, 'arc') .and. keys%meant(group, 'gap')) then
-      call keys%rule(group, 'gap', abs(bearing%arc + gap - share) > rounding, &
+    if (keys%meant(pads_group, 'arc') .and. bearing%arc > share + rounding) then
+      call keys%complain(pads_group, 'arc', 'must not be longer than '//room//': the pads overlap')
+    else if (keys%meant(pads_group, 'arc') .and. keys%meant(pads_group, 'gap')) then
+      call keys%rule(pads_group, 'gap', abs(bearing%arc + gap - share) > rounding, &
                      'contradicts arc: together they must be '//room//'; give one of them')
     else if (gap >= share) then
-      call keys%complain(group, 'gap', 'must be smaller than '//room//': it leaves no pad')
+      call keys%complain(pads_group, 'gap', 'must be smaller than '//room//': it leaves no pad')
     end if
   end subroutine check_arc
+
+  !> Reads `&bore`.
+  subroutine read_bore_case(keys, bore, bearing, misplaced)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(bore_case_type), intent(out) :: bore !! what `&bore` asks for
+    type(bearing_case_type), intent(in) :: bearing !! the pads on it
+    character(len=*), intent(in) :: misplaced !! why the group does not fit; empty where it does
+    real(wp) :: peak, shims !! highest of the bore; of its shims, be the others wrong [m]
+    integer :: mistakes !! before the group
+
+    mistakes = keys%mistakes()
+    call keys%start_group(bore_group, optional=.true., present_in_file=bore%present, &
+                          misplaced=misplaced)
+    call read_waves(keys, bore%profile)
+    call read_shims(keys, bore%profile, shims)
+    call read_table(keys, bore%profile)
+    if (.not. bore%present) return
+    call keys%rule(bore_group, 'shim_height', .not. allocated(bore%profile%shim_height) .and. &
+                   bearing%clearance > 0.0_wp .and. shims >= bearing%clearance, &
+                   'must be less than the clearance of '//text(bearing%clearance)// &
+                   ' m: no gap is left at rest')
+    if (.not. bore%profile%present()) then
+      call keys%rule(bore_group, 'waves', keys%mistakes() == mistakes, 'or shim_angle or '// &
+                     'profile_angle is needed: the group says nothing of the bore')
+      return
+    end if
+    peak = bore_peak(bore%profile)
+    if (.not. bearing%clearance > 0.0_wp) return
+    if (peak >= bearing%clearance) then
+      call keys%complain(bore_group, highest_key(bore%profile), 'makes the bore '//text(peak, 4)// &
+                         ' m high in all, which must be less than the clearance of '// &
+                         text(bearing%clearance)//' m: no gap is left at rest')
+    else if (.not. least_gap(bearing, bore%profile) > 0.0_wp) then
+      call keys%complain(bore_group, highest_key(bore%profile), 'with the preload of the pads '// &
+                         'leaves no gap at rest')
+    end if
+  end subroutine read_bore_case
+
+  !> Smallest gap at rest of pads with a preload [m].
+  pure real(wp) function least_gap(bearing, profile) result(gap)
+    type(bearing_case_type), intent(in) :: bearing
+    type(bore_profile_type), intent(in) :: profile
+    integer, parameter :: points = 2000 !! of a pad
+    real(wp) :: angle, shift
+    integer :: pad, i
+
+    gap = bearing%clearance
+    do pad = 1, bearing%pads
+      do i = 0, points
+        angle = bearing%leading_edge_angle + pad_turn(bearing, pad) &
+          + pad_angle(bearing)*real(i, wp)/real(points, wp)
+        shift = bearing%preload*cos(angle - preload_angle(bearing, pad))
+        gap = min(gap, bearing%clearance*(1.0_wp - shift) - bore_height(profile, angle))
+      end do
+    end do
+  end function least_gap
+
+  !> Lobes.
+  subroutine read_waves(keys, profile)
+    type(case_keys_type), intent(inout) :: keys
+    type(bore_profile_type), intent(inout) :: profile
+    logical :: waves, amplitude
+
+    call keys%integer_key('waves', profile%waves, 'waves of the bore around the circle; 0: none', &
+                          from_to(0.0_wp, most_waves), given=waves)
+    waves = profile%waves > 0
+    call keys%real_key('wave_amplitude', profile%wave_amplitude, 'm', 'amplitude of the waves, '// &
+                       'half of their height from trough to crest', positive, waves, &
+                       default='required with waves', given=amplitude)
+    call keys%real_key('wave_angle', profile%wave_angle, 'rad', 'angle of a crest, where the '// &
+                       'bore is nearest to the shaft', any_value)
+    if (amplitude .and. .not. waves) call keys%complain(bore_group, 'wave_amplitude', 'needs waves')
+    call keys%rule(bore_group, 'wave_angle', keys%meant(bore_group, 'wave_angle') .and. &
+                   .not. waves, 'needs waves')
+  end subroutine read_waves
+
+  !> Shims: each list has one value a shim; of arcs, ramps and heights one may stand for all.
+  subroutine read_shims(keys, profile, highest)
+    type(case_keys_type), intent(inout) :: keys
+    type(bore_profile_type), intent(inout) :: profile
+    real(wp), intent(out) :: highest !! shim; 0 where their heights are wrong [m]
+    real(wp), allocatable :: angle(:), height(:), arc(:), ramp(:)
+    logical :: right, here
+
+    call keys%real_list_key('shim_angle', angle, longest_list, 'rad', 'middle of each shim '// &
+                            'under the foil', any_value, .false., 'no shims')
+    here = keys%key%given
+    right = here .and. keys%last_key_is_right()
+    call one_list('shim_height', height, 'm', 'height of the plateau of each shim, or '// &
+                  'of all', any_value)
+    highest = 0.0_wp
+    if (keys%last_key_is_right()) highest = maxval(height)
+    call one_list('shim_arc', arc, 'rad', 'whole arc of the plateau of each shim, or of all', &
+                  not_negative)
+    call one_list('shim_ramp', ramp, 'rad', 'arc of the ramp on each side of the plateau of '// &
+                  'each shim, or of all', positive)
+    if (.not. right) return
+    if (any(0.5_wp*arc + ramp > 0.5_wp*turn)) then
+      call keys%complain(bore_group, 'shim_arc', 'with both ramps must be a whole turn at most')
+      return
+    end if
+    profile%shim_angle = angle
+    profile%shim_height = height
+    profile%shim_arc = arc
+    profile%shim_ramp = ramp
+    call warn_of_overlaps(keys, angle, 0.5_wp*arc + ramp)
+
+  contains
+
+    !> One of the lists beside the angles.
+    subroutine one_list(name, list, unit, meaning, rule)
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), allocatable, intent(out) :: list(:)
+      type(rule_type), intent(in) :: rule
+
+      call keys%real_list_key(name, list, longest_list, unit, meaning, rule, here, &
+                              'required with shim_angle')
+      if (.not. here) then
+        if (keys%key%given) call keys%complain(bore_group, name, 'needs shim_angle')
+      else if (.not. keys%last_key_is_right()) then
+        right = .false.
+      else if (size(list) == 1) then
+        list = spread(list(1), 1, size(angle))
+      else if (size(list) /= size(angle)) then
+        call keys%complain(bore_group, name, 'must have one value, or one a shim: '// &
+                           text(size(angle))//', not '//text(size(list)))
+        right = .false.
+      end if
+    end subroutine one_list
+  end subroutine read_shims
+
+  !> Warns of shims that overlap, as their heights add.
+  subroutine warn_of_overlaps(keys, angle, reach)
+    type(case_keys_type), intent(inout) :: keys
+    real(wp), intent(in) :: angle(:) !! of their middles [rad]
+    real(wp), intent(in) :: reach(:) !! from there to their ends [rad]
+    real(wp) :: apart
+    integer :: i, k
+
+    do i = 2, size(angle)
+      do k = 1, i - 1
+        apart = modulo(angle(i) - angle(k), turn)
+        apart = min(apart, turn - apart)
+        if (apart > reach(i) + reach(k) - rounding) cycle
+        call keys%warn(bore_group, 'shim_angle', 'shims '//text(k)//' and '//text(i)// &
+                       ' overlap, ramps included: their heights add', i)
+        exit
+      end do
+    end do
+  end subroutine warn_of_overlaps
+
+  !> A measured bore, or wear.
+  subroutine read_table(keys, profile)
+    type(case_keys_type), intent(inout) :: keys
+    type(bore_profile_type), intent(inout) :: profile
+    real(wp), allocatable :: angle(:), height(:)
+    logical :: here, right
+    integer :: i
+
+    call keys%real_list_key('profile_angle', angle, longest_list, 'rad', 'angles of a measured '// &
+                            'bore, rising', from_below(0.0_wp, turn), .false., 'no profile')
+    here = keys%key%given
+    right = here .and. keys%last_key_is_right()
+    if (right .and. size(angle) < 2) then
+      call keys%complain(bore_group, 'profile_angle', 'needs two values at least')
+      right = .false.
+    end if
+    do i = 2, size(angle)
+      if (.not. right) exit
+      if (angle(i) > angle(i - 1)) cycle
+      call keys%complain(bore_group, 'profile_angle', 'must be greater than the value before it', i)
+      right = .false.
+    end do
+    call keys%real_list_key('profile_height', height, longest_list, 'm', 'height of the bore '// &
+                            'over the circle there, linear between the angles and around', &
+                            any_value, here, 'required with profile_angle')
+    if (keys%key%given .and. .not. here) then
+      call keys%complain(bore_group, 'profile_height', 'needs profile_angle')
+    else if (keys%key%given .and. size(height) /= size(angle)) then
+      call keys%complain(bore_group, 'profile_height', 'must have one value an angle: '// &
+                         text(size(angle))//', not '//text(size(height)))
+      right = .false.
+    end if
+    if (.not. (right .and. keys%key%given)) return
+    profile%table_angle = angle
+    profile%table_height = height
+  end subroutine read_table
+
+  !> The key that has most to do with the height.
+  pure function highest_key(profile) result(key)
+    type(bore_profile_type), intent(in) :: profile
+    character(len=:), allocatable :: key
+    real(wp) :: height
+
+    key = 'wave_amplitude'
+    height = profile%wave_amplitude
+    if (allocated(profile%shim_height)) then
+      if (maxval(profile%shim_height) > height) key = 'shim_height'
+      height = max(height, maxval(profile%shim_height))
+    end if
+    if (allocated(profile%table_height)) then
+      if (maxval(profile%table_height) > height) key = 'profile_height'
+    end if
+  end function highest_key
 end module gfb_bearing_case

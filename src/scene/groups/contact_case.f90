@@ -88,10 +88,8 @@ contains
   end subroutine read_shaft_contact_case
 
   !> The law of vibrations with an amplitude, and of motions in time.
-  elemental function law_in_motion(self) result(law)
+  elemental integer function law_in_motion(self) result(law)
     class(contact_case_type), intent(in) :: self !! what `&contact` asks for
-    integer :: law
-
     law = merge(law_coulomb, self%friction_law, self%friction_law_in_motion == motion_coulomb)
   end function law_in_motion
 
@@ -179,11 +177,10 @@ contains
 
   !> The stiffness with which a penetration of 1e-4 of the typical deflection carries what a bump
   !> carries at that deflection [N/m^(1 + exponent)]; 0 where it is not known.
-  elemental function default_stiffness(deflection, foil, exponent) result(stiffness)
+  elemental real(wp) function default_stiffness(deflection, foil, exponent) result(stiffness)
     real(wp), intent(in) :: deflection !! typical one [m]
     type(bump_foil_case_type), intent(in) :: foil
     real(wp), intent(in) :: exponent  !! of the penetration [1]
-    real(wp) :: stiffness
     real(wp) :: penetration !! [m]
 
     stiffness = bumps_stiffness*bump_stiffness(foil)*foil%pitch%value

@@ -43,14 +43,7 @@ module gfb_foil_cases
     real(wp), allocatable :: by_bump(:)  !! from the smallest x on; not allocated: all have one [m]
     real(wp), allocatable :: by_strip(:) !! from the smallest z on; the same [m]
   contains
-    procedure :: read_value
-    procedure :: read_by_bump
-    procedure :: read_by_strip
-    procedure :: each
-    procedure :: smallest
-    procedure :: mirrors
-    procedure :: bump_key
-    procedure :: key_in
+    procedure :: read_value, read_by_bump, read_by_strip, each, smallest, mirrors, bump_key, key_in
   end type size_type
 
   integer, parameter, public :: fixed_edge_leading = 1
@@ -200,10 +193,9 @@ contains
 
   !> The value that stands for a list: its mean, to the last digit where all values are one, or the
   !> largest [m].
-  pure function value_of(self, list) result(value)
+  pure real(wp) function value_of(self, list) result(value)
     class(size_type), intent(in) :: self
     real(wp), intent(in) :: list(:)
-    real(wp) :: value
 
     value = list(1) + sum(list - list(1))/size(list)
     if (self%largest) value = maxval(list)
@@ -224,12 +216,11 @@ contains
   !> One value a bump or strip, or one that stands for all.
   subroutine shared_list_key(keys, name, list, what, number, from, meaning, rule, default, useless)
     type(case_keys_type), intent(inout) :: keys
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name, meaning, default, useless
     real(wp), allocatable, intent(out) :: list(:) !! not allocated where none is right [m]
     character(len=*), intent(in) :: what !! has a value: 'bump' or 'strip'
     integer, intent(in) :: number !! of them, 0 where not known
     character(len=*), intent(in) :: from !! where the first is
-    character(len=*), intent(in) :: meaning, default, useless
     type(rule_type), intent(in) :: rule
     real(wp), allocatable :: values(:)
 
@@ -254,9 +245,8 @@ contains
   end function each
 
   !> The smallest of all bumps and strips [m].
-  elemental function smallest(self) result(value)
+  elemental real(wp) function smallest(self) result(value)
     class(size_type), intent(in) :: self !! the size
-    real(wp) :: value
 
     value = self%value
     if (allocated(self%by_bump)) value = minval(self%by_bump)
@@ -288,9 +278,8 @@ contains
   end function of_strip
 
   !> Whether the strips mirror each other about the midplane.
-  elemental function mirrors(self) result(mirror)
+  elemental logical function mirrors(self) result(mirror)
     class(size_type), intent(in) :: self !! the size
-    logical :: mirror
 
     mirror = .true.
     if (.not. allocated(self%by_strip)) return
@@ -421,16 +410,14 @@ contains
   end subroutine read_cuts
 
   !> Width of all strips without the cuts [m].
-  elemental function solid_width(foil) result(width)
+  elemental real(wp) function solid_width(foil) result(width)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp) :: width
     width = foil%width - real(foil%strips - 1, wp)*foil%cut_width
   end function solid_width
 
   !> Whether a size is given bump by bump.
-  elemental function has_sizes(foil) result(has)
+  elemental logical function has_sizes(foil) result(has)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    logical :: has
     has = allocated(foil%pitch%by_bump) .or. allocated(foil%half_length%by_bump) .or. &
           allocated(foil%height%by_bump) .or. allocated(foil%thickness%by_bump)
   end function has_sizes
@@ -451,18 +438,16 @@ contains
   end function one_bump
 
   !> Whether strips side by side have different bumps, or begin at different places.
-  elemental function strips_differ(foil) result(differ)
+  elemental logical function strips_differ(foil) result(differ)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    logical :: differ
     differ = allocated(foil%pitch%by_strip) .or. allocated(foil%half_length%by_strip) .or. &
              allocated(foil%height%by_strip) .or. allocated(foil%thickness%by_strip) .or. &
              allocated(foil%offset%by_strip)
   end function strips_differ
 
   !> Whether the strips mirror each other about the midplane.
-  elemental function sizes_mirror(foil) result(mirror)
+  elemental logical function sizes_mirror(foil) result(mirror)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    logical :: mirror
     mirror = foil%pitch%mirrors() .and. foil%half_length%mirrors() .and. foil%height%mirrors() &
              .and. foil%thickness%mirrors() .and. foil%offset%mirrors()
   end function sizes_mirror
@@ -485,11 +470,10 @@ contains
   end function one_strip
 
   !> Gap at rest between a bump's crest and the top foil, which is as high as the highest bump [m].
-  elemental function gap_of_crest(foil, bump, strip) result(gap)
+  elemental real(wp) function gap_of_crest(foil, bump, strip) result(gap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     integer, intent(in) :: bump !! number of the bump, from the smallest x on
     integer, intent(in), optional :: strip !! from the smallest z on; needed where they differ
-    real(wp) :: gap
 
     gap = 0.0_wp
     if (allocated(foil%crest_gap)) gap = foil%crest_gap(bump)
@@ -502,18 +486,16 @@ contains
   end function gap_of_crest
 
   !> Gap at rest between a corner line and the sleeve; each bump has two lines of its own [m].
-  elemental function gap_of_corner(foil, line) result(gap)
+  elemental real(wp) function gap_of_corner(foil, line) result(gap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     integer, intent(in) :: line !! number of the corner line, from the smallest x on
-    real(wp) :: gap
     gap = 0.0_wp
     if (allocated(foil%corner_gap)) gap = foil%corner_gap((line + 1)/2)
   end function gap_of_corner
 
   !> Whether there are flats between the bumps; with sizes bump by bump, at any of them.
-  elemental function has_flats(foil) result(flats)
+  elemental logical function has_flats(foil) result(flats)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    logical :: flats
 
     associate (n => merge(foil%bumps, 1, has_sizes(foil)))
       flats = any(foil%pitch%each(n) > 2.0_wp*foil%half_length%each(n)*(1.0_wp + rounding))
@@ -521,9 +503,8 @@ contains
   end function has_flats
 
   !> Whether a pitch is shorter than the bump's arc, or not known.
-  elemental function bumps_overlap(foil) result(overlap)
+  elemental logical function bumps_overlap(foil) result(overlap)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    logical :: overlap
     overlap = any(overlapping(foil, merge(foil%bumps, 1, has_sizes(foil))))
   end function bumps_overlap
 
@@ -601,10 +582,9 @@ contains
   end subroutine draw_gaps
 
   !> The largest gap of all strips [m].
-  pure function largest_gap(law, gap) result(largest)
+  pure real(wp) function largest_gap(law, gap) result(largest)
     type(height_deviation_type), intent(in) :: law !! with the gaps of further strips
     real(wp), intent(in) :: gap(:) !! of the first strip, one a bump [m]
-    real(wp) :: largest
 
     largest = maxval(gap)
     if (.not. allocated(law%further_gap)) return

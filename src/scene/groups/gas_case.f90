@@ -205,10 +205,9 @@ contains
   end subroutine read_table
 
   !> Whether no key is missing, which is told of later.
-  pure function is_complete(said, gas) result(complete)
+  pure logical function is_complete(said, gas) result(complete)
     type(gas_keys_type), intent(in) :: said
     type(gas_case_type), intent(in) :: gas
-    logical :: complete
     logical :: real_gas
 
     real_gas = said%state == second_word

@@ -140,10 +140,9 @@ contains
   end subroutine read_mesh_case
 
   !> Elements along the pad where the case does not say: whole pitches that cover it.
-  elemental function default_circumferential_elements(bearing, foil) result(elements)
+  elemental integer function default_circumferential_elements(bearing, foil) result(elements)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    integer :: elements
     real(wp), parameter :: rounding = 1.0e-9_wp !! whole pitches are not rounded up, relative
     real(wp) :: pitches
 

@@ -11,7 +11,7 @@ module gfb_model_case
   integer, parameter, public :: foil_rigid = 1, foil_elastic_foundation = 2
   integer, parameter, public :: foil_shell = 3, foil_beam = 4
 
-  !> A foil model, as the scene knows it; `gfb_foil_models` has what each row builds.
+  !> A foil model, as the scene knows it; `gfb_bearing_builder` has what each row builds.
   type :: foil_row_type
     character(len=18) :: word    !! in the case file
     logical :: meshed            !! top foil and bumps have meshes of their own
@@ -116,9 +116,8 @@ contains
   end subroutine read_model_case
 
   !> Whether top foil and bumps have meshes of their own.
-  elemental function meshes_foils(foil) result(meshes)
+  elemental logical function meshes_foils(foil) result(meshes)
     integer, intent(in) :: foil !! the model's, 0 where it is not known
-    logical :: meshes
 
     meshes = .false.
     if (foil > 0) meshes = foil_rows(foil)%meshed
@@ -132,8 +131,7 @@ contains
   end function foil_word
 
   !> Number of foil models there are.
-  pure function foil_count() result(models)
-    integer :: models
+  pure integer function foil_count() result(models)
     models = size(foil_rows)
   end function foil_count
 

@@ -205,10 +205,9 @@ contains
   !> The analysis that finds the state about which the shaft vibrates, or from which it
   !> moves: a given load is balanced, else the given position is kept. A limit is one of
   !> equilibria. The group `&operation` is not read yet.
-  pure function analysis_of_state(analysis, has_load, has_position) result(state)
+  pure integer function analysis_of_state(analysis, has_load, has_position) result(state)
     integer, intent(in) :: analysis !! of the case file, 0 where it is not known
     logical, intent(in) :: has_load, has_position !! keys that `&operation` holds
-    integer :: state
 
     state = analysis
     if (asks_limit(analysis) .or. analysis == analysis_periodic) state = analysis_equilibrium

@@ -32,9 +32,8 @@ module gfb_operation_case
 contains
 
   !> Whether the file asks for lifts of free edges.
-  pure function asks_for_lift(self) result(asks)
+  pure logical function asks_for_lift(self) result(asks)
     class(operation_case_type), intent(in) :: self !! what `&operation` asks for
-    logical :: asks
 
     asks = .false.
     if (allocated(self%leading_edge_lift)) asks = size(self%leading_edge_lift) > 0
@@ -81,9 +80,8 @@ contains
   end subroutine read_operation_case
 
   !> Angular speed [rad/s].
-  elemental function angular_speed(speed_rpm) result(speed)
+  elemental real(wp) function angular_speed(speed_rpm) result(speed)
     real(wp), intent(in) :: speed_rpm !! [rpm]
-    real(wp) :: speed
     speed = speed_rpm*rpm
   end function angular_speed
 end module gfb_operation_case

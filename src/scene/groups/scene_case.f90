@@ -64,9 +64,8 @@ contains
 
   !> Whether the analysis may be said where it is not read: in a group or by a key that is misspelt.
   !> The rest of the file must not be judged by the default then.
-  function is_misplaced(keys) result(misplaced)
+  logical function is_misplaced(keys) result(misplaced)
     type(case_keys_type), intent(in) :: keys
-    logical :: misplaced
     character(len=:), allocatable :: key
     integer :: i
 
@@ -88,26 +87,23 @@ contains
   end function is_misplaced
 
   !> Whether an analysis has a shaft and a film.
-  pure function is_bearing(analysis) result(bearing)
+  pure logical function is_bearing(analysis) result(bearing)
     integer, intent(in) :: analysis !! 0 where it is not known
-    logical :: bearing
     bearing = analysis == analysis_equilibrium .or. analysis == analysis_fixed_position .or. &
               analysis == analysis_linear_dynamics .or. analysis == analysis_transient .or. &
               analysis == analysis_periodic .or. asks_limit(analysis)
   end function is_bearing
 
   !> Whether an analysis looks for a limit of equilibria.
-  pure function asks_limit(analysis) result(asks)
+  pure logical function asks_limit(analysis) result(asks)
     integer, intent(in) :: analysis !! 0 where it is not known
-    logical :: asks
     asks = analysis == analysis_load_capacity .or. analysis == analysis_lift_off .or. &
            analysis == analysis_misalignment
   end function asks_limit
 
   !> Whether an analysis is of foils alone.
-  pure function is_structure(analysis) result(structure)
+  pure logical function is_structure(analysis) result(structure)
     integer, intent(in) :: analysis !! 0 where it is not known
-    logical :: structure
     structure = analysis == analysis_strip .or. analysis == analysis_modes
   end function is_structure
 

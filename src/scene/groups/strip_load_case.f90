@@ -150,9 +150,8 @@ contains
   end function crest_forces
 
   !> Stiffness per area of the bumps after Walowit and Anno [N/m^3]; 0 where it is not known.
-  elemental function bump_stiffness(foil) result(stiffness)
+  elemental real(wp) function bump_stiffness(foil) result(stiffness)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp) :: stiffness
     real(wp), parameter :: largest_power = 60.0_wp !! of ten; no foil comes near, and products hold
     real(wp) :: power
 
@@ -170,10 +169,9 @@ contains
 
   !> About how far the whole load presses the bumps down [m]; a small part of their height where
   !> there is no load.
-  elemental function typical_deflection(load, foil) result(deflection)
+  elemental real(wp) function typical_deflection(load, foil) result(deflection)
     type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp) :: deflection
     real(wp), parameter :: part_of_height = 1.0e-3_wp
     real(wp) :: stiffness !! [N/m^3]
     real(wp) :: unloaded  !! [m]

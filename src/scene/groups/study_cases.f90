@@ -4,9 +4,8 @@ module gfb_study_cases
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, from_to, between, not_negative, positive
   use gfb_scene_case, only: analysis_modes, misplaced_group, analysis_strip, is_bearing, &
-                            analysis_equilibrium, analysis_fixed_position, &
-                            analysis_load_capacity, analysis_lift_off, analysis_misalignment, &
-                            asks_limit
+                            analysis_equilibrium, analysis_fixed_position, analysis_load_capacity, &
+                            analysis_lift_off, analysis_misalignment, asks_limit
   use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, strip
   use gfb_text, only: text
@@ -207,9 +206,8 @@ contains
   end subroutine read_sample_case
 
   !> A quantile in percent.
-  elemental function percent_of(quantile) result(percent)
+  elemental integer function percent_of(quantile) result(percent)
     real(wp), intent(in) :: quantile !! between 0 and 1 [1]
-    integer :: percent
     percent = nint(100.0_wp*quantile)
   end function percent_of
 

@@ -34,8 +34,7 @@ module gfb_sweep_case
     character(len=:), allocatable :: group, name !! in lower case
     integer :: element = 0 !! of the list, or `every_element`; 0: no index is given
   contains
-    procedure :: label
-    procedure :: is_gap
+    procedure :: label, is_gap
   end type swept_key_type
 
   !> The sweep.
@@ -146,9 +145,8 @@ contains
   end function label
 
   !> Whether a key is a list of gaps at rest, which are 0 where it is absent.
-  pure function is_gap(self) result(gap)
+  pure logical function is_gap(self) result(gap)
     class(swept_key_type), intent(in) :: self !! the key
-    logical :: gap
     gap = self%group == 'bump_foil' .and. (self%name == 'crest_gap' .or. self%name == 'corner_gap')
   end function is_gap
 

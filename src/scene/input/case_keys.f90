@@ -25,18 +25,9 @@ module gfb_case_keys
   !> The keys of a case file, kind by kind.
   type, extends(case_reader_type) :: case_keys_type
   contains
-    procedure :: real_key
-    procedure :: real_vector_key
-    procedure :: real_list_key
-    procedure :: integer_key
-    procedure :: logical_key
-    procedure :: string_key
-    procedure :: choice_key
-    procedure :: choice_or_keys_key
-    procedure :: words_key
-    procedure :: names_key
-    procedure, private :: take_numbers
-    procedure, private :: has_no_use
+    procedure :: real_key, real_vector_key, real_list_key, integer_key, logical_key, string_key
+    procedure :: choice_key, choice_or_keys_key, words_key, names_key
+    procedure, private :: take_numbers, has_no_use
   end type case_keys_type
 
 contains
@@ -52,11 +43,10 @@ contains
   end function unless
 
   !> Reads a key that has no use, where a reason says so: its echo must not show a value.
-  function has_no_use(self, name, meaning, why) result(useless)
+  logical function has_no_use(self, name, meaning, why) result(useless)
     class(case_keys_type), intent(inout) :: self
     character(len=*), intent(in) :: name, meaning !! of the key; what it means
     character(len=*), intent(in), optional :: why !! it must not be given; empty where it may
-    logical :: useless
     integer, allocatable :: elements(:)
 
     useless = .false.

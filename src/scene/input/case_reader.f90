@@ -26,29 +26,9 @@ module gfb_case_reader
     integer, private :: keys_scanned_wrong = 0 !! whose mistakes the scanner has told
     logical, private :: strict = .false.    !! warnings are mistakes
   contains
-    procedure :: open_text
-    procedure :: start_group
-    procedure :: finish
-    procedure :: report
-    procedure :: complain
-    procedure :: rule
-    procedure :: refuse
-    procedure :: warn
-    procedure :: warn_of_line
-    procedure :: hint_lines
-    procedure :: warning_lines
-    procedure :: add_new
-    procedure :: meant
-    procedure :: holds
-    procedure :: last_key_is_right
-    procedure :: mistakes
-    procedure :: describe
-    procedure :: begin_key
-    procedure :: end_key
-    procedure :: end_numbers
-    procedure :: take_real
-    procedure :: take_choice
-    procedure :: complain_value
+    procedure :: open_text, start_group, finish, report, complain, rule, refuse, warn, warn_of_line
+    procedure :: hint_lines, warning_lines, add_new, meant, holds, last_key_is_right, mistakes
+    procedure :: describe, begin_key, end_key, end_numbers, take_real, take_choice, complain_value
   end type case_reader_type
 
 contains
@@ -227,11 +207,10 @@ contains
   end subroutine add_new
 
   !> Whether a value, or all values of a key, were wrong when they were read.
-  function is_known_wrong(self, group, key, element) result(wrong)
+  logical function is_known_wrong(self, group, key, element) result(wrong)
     class(case_reader_type), intent(in) :: self
     character(len=*), intent(in) :: group, key
     integer, intent(in), optional :: element !! of a list
-    logical :: wrong
     integer, allocatable :: elements(:)
 
     wrong = .false.
@@ -305,9 +284,8 @@ contains
   end function meant
 
   !> Whether the key read last stands in the file without a mistake.
-  pure function last_key_is_right(self) result(right)
+  pure logical function last_key_is_right(self) result(right)
     class(case_reader_type), intent(in) :: self !! the keys being read
-    logical :: right
     right = self%key%given .and. self%mistakes() == self%mistakes_before
   end function last_key_is_right
 

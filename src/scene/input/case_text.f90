@@ -96,9 +96,8 @@ contains
 
   !> Whether a text is of characters of two or four bytes: its mark tells, or a zero byte in its
   !> first character.
-  pure function is_wide(words) result(wide)
+  pure logical function is_wide(words) result(wide)
     character(len=*), intent(in) :: words
-    logical :: wide
     character(len=*), parameter :: little = char(255)//char(254), big = char(254)//char(255)
 
     wide = index(words, little) == 1 .or. index(words, big) == 1

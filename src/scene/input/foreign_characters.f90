@@ -175,9 +175,8 @@ contains
   end function foreign_words
 
   !> Whether words hold a character that means nothing in ASCII.
-  pure function is_spoilt(words) result(truth)
+  pure logical function is_spoilt(words) result(truth)
     character(len=*), intent(in) :: words !! of a folded text
-    logical :: truth
     truth = index(words, spoilt) > 0
   end function is_spoilt
 

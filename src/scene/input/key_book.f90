@@ -6,7 +6,7 @@ module gfb_key_book
   use gfb_foreign_characters, only: is_spoilt
   use gfb_moved_keys, only: home_of
   use gfb_namelist_file, only: namelist_file_type
-  use gfb_text, only: exact_text, join, lower_case, nearest_word, text
+  use gfb_text, only: did_you_mean, exact_text, join, lower_case, nearest_word, text
   implicit none (type, external)
   private
   public :: group_type, key_type, key_book_type, quoted, choices, chosen_word, chosen_words
@@ -57,15 +57,8 @@ module gfb_key_book
     integer :: count = 0
     logical :: kept = .true. !! what is shown; else the file is read for its values alone
   contains
-    procedure :: add_group
-    procedure :: add_key
-    procedure :: place_of
-    procedure :: group_line
-    procedure :: look_up_real
-    procedure :: check_names
-    procedure :: numbers_shown
-    procedure :: echo
-    procedure :: table
+    procedure :: add_group, add_key, place_of, group_line, look_up_real, check_names, numbers_shown
+    procedure :: echo, table
   end type key_book_type
 
 contains
@@ -91,18 +84,16 @@ contains
   end subroutine add_key
 
   !> Number of a key, be it named by the group that had it before; 0 where there is none.
-  pure function place_of(self, group, key) result(place)
+  pure integer function place_of(self, group, key) result(place)
     class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group, key !! names in the case file
-    integer :: place
     place = findloc(self%keys%name == key .and. self%keys%group == home_of(group, key), .true., 1)
   end function place_of
 
   !> Line of a group in the file, 0 where it is absent.
-  pure function group_line(self, group) result(line)
+  pure integer function group_line(self, group) result(line)
     class(key_book_type), intent(in) :: self !! the known groups and keys
     character(len=*), intent(in) :: group !! of the file
-    integer :: line
     integer :: i
 
     line = 0
@@ -134,8 +125,7 @@ contains
       near = nearest_word(group//'%'//key, pack(known, is_real .or. is_list))
       is_key = self%keys(:self%count)%name == key .and. is_real
       if (any(is_key)) near = join(pack(known, is_key), ''' or ''')
-      problem = 'there is no key '//shown(group//'%'//key)
-      if (near /= '') problem = problem//', did you mean '''//near//'''?'
+      problem = 'there is no key '//shown(group//'%'//key)//did_you_mean(near, '''')
     else if (is_list(i) .and. .not. in_list) then
       problem = group//'%'//key//' is a list: name one of its values, such as '//key//'(2)'
     else if (is_real(i) .and. in_list) then
@@ -206,7 +196,7 @@ contains
     if (is_spoilt(name)) then
       call excuse_group(self, near) ! its characters outside ASCII have been complained about
     else if (near /= '') then
-      call complaints%add(line, "unknown group '&"//shown(name)//"', did you mean '&"//near//"'?")
+      call complaints%add(line, "unknown group '&"//shown(name)//"'"//did_you_mean('&'//near, "'"))
       call excuse_group(self, near)
     else
       call complaints%add(line, "unknown group '&"//shown(name)//"'; the groups are &"// &
@@ -241,7 +231,7 @@ contains
         words = words//'; it belongs into &'//trim(keys(j)%group)
         keys(j)%misspelt = .true.
       else if (near /= '') then
-        words = words//", did you mean '"//near//"'?"
+        words = words//did_you_mean(near, "'")
         where (in_group .and. keys%name == near) keys%misspelt = .true.
       else
         words = words//'; the keys of &'//group//' are '//join(pack(keys%name, in_group), ', ')

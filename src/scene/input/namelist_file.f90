@@ -64,11 +64,7 @@ module gfb_namelist_file
     type(namelist_value_type), allocatable :: values(:)
     type(namelist_group_type), allocatable :: strays(:)  !! words outside groups, one a place
   contains
-    procedure :: group_name
-    procedure :: key_name
-    procedure :: value_text
-    procedure :: value_shown
-    procedure :: values_shown
+    procedure :: group_name, key_name, value_text, value_shown, values_shown
   end type namelist_file_type
 
 contains
@@ -123,10 +119,9 @@ contains
   end function section_size
 
   !> Whether there are so many elements.
-  pure function section_holds(self, values) result(holds)
+  pure logical function section_holds(self, values) result(holds)
     class(section_type), intent(in) :: self !! the elements
     integer(long), intent(in) :: values !! of the entry
-    logical :: holds
     holds = self%last == 0 .or. self%size() == values
   end function section_holds
 
@@ -145,9 +140,8 @@ contains
   end function section_shown
 
   !> A number with blanks about it; 0 where it is none from 1 on, `huge` where it is too large.
-  pure function number_of(words) result(number)
+  pure integer function number_of(words) result(number)
     character(len=*), intent(in) :: words
-    integer :: number
     number = max(0, repeat_count(bare(words)))
   end function number_of
 
@@ -263,10 +257,9 @@ contains
   end subroutine complain_about_foreign
 
   !> The entry that a place of the text belongs to, from its key to behind its values; 0 where none.
-  pure function entry_at(file, place) result(entry)
+  pure integer function entry_at(file, place) result(entry)
     type(namelist_file_type), intent(in) :: file
     integer, intent(in) :: place
-    integer :: entry
     integer :: last, low, middle
 
     low = 0
@@ -339,11 +332,10 @@ contains
   end subroutine find_elements
 
   !> Whether an entry of the file belongs to a key.
-  pure function is_entry_of(file, entry, group, key) result(belongs)
+  pure logical function is_entry_of(file, entry, group, key) result(belongs)
     type(namelist_file_type), intent(in) :: file !! the scanned file
     integer, intent(in) :: entry !! number of the key in the file
     character(len=*), intent(in) :: group, key !! names in the case file
-    logical :: belongs
 
     belongs = .false.
     associate (item => file%entries(entry))
@@ -366,10 +358,9 @@ contains
   end function moves_to
 
   !> Whether a key stands in the file.
-  pure function stands_in(file, group, key) result(stands)
+  pure logical function stands_in(file, group, key) result(stands)
     type(namelist_file_type), intent(in) :: file !! the scanned file
     character(len=*), intent(in) :: group, key !! names in the case file
-    logical :: stands
     integer :: entry
 
     stands = .true.
@@ -382,8 +373,7 @@ contains
   !> Fills the elements that one entry gives.
   subroutine fill(file, entry, most, filled, owner, complaints)
     type(namelist_file_type), intent(in) :: file
-    integer, intent(in) :: entry
-    integer, intent(in) :: most
+    integer, intent(in) :: entry, most
     integer, intent(inout) :: filled(:)  !! value of each element, 0 where none yet
     integer, intent(inout) :: owner(:)   !! entry that gave it
     type(complaints_type), intent(inout) :: complaints

@@ -156,10 +156,9 @@ contains
   end subroutine take_string
 
   !> Last character of the word that begins here.
-  pure function end_of_word(words, first) result(last)
+  pure integer function end_of_word(words, first) result(last)
     character(len=*), intent(in) :: words
     integer, intent(in) :: first
-    integer :: last
 
     last = first - 1
     do while (last < len(words))
@@ -169,20 +168,18 @@ contains
   end function end_of_word
 
   !> The character that ends this line, or the one behind the text.
-  pure function end_of_line(words, at) result(line_end)
+  pure integer function end_of_line(words, at) result(line_end)
     character(len=*), intent(in) :: words
     integer, intent(in) :: at
-    integer :: line_end
 
     line_end = scan(words(at:), line_ends)
     line_end = merge(at + line_end - 1, len(words) + 1, line_end > 0)
   end function end_of_line
 
   !> Whether a carriage return stands alone here, and so ends a line.
-  pure function old_line_end(words, at) result(alone)
+  pure logical function old_line_end(words, at) result(alone)
     character(len=*), intent(in) :: words
     integer, intent(in) :: at
-    logical :: alone
 
     alone = words(at:at) == carriage_return
     if (alone .and. at < len(words)) alone = words(at + 1:at + 1) /= line_feed
@@ -322,10 +319,9 @@ contains
   end subroutine take_stray
 
   !> Number of tokens that make a key with its equals sign, 0 where no key stands.
-  pure function key_length(self, i) result(length)
+  pure integer function key_length(self, i) result(length)
     type(scanner_type), intent(in) :: self
     integer, intent(in) :: i
-    integer :: length
     integer :: j
 
     length = 0

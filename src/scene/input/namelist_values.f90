@@ -26,9 +26,8 @@ module gfb_namelist_values
 contains
 
   !> Kind of a value without quotes.
-  pure function word_kind(words) result(kind_of_word)
+  pure integer function word_kind(words) result(kind_of_word)
     character(len=*), intent(in) :: words !! a value as it was typed
-    integer :: kind_of_word
 
     kind_of_word = value_word
     if (is_number(words)) kind_of_word = value_number
@@ -38,9 +37,8 @@ contains
   end function word_kind
 
   !> A count as typed; -1 where the words are none, `huge` where it is too large to hold.
-  pure function repeat_count(words) result(number)
+  pure integer function repeat_count(words) result(number)
     character(len=*), intent(in) :: words !! a value as it was typed
-    integer :: number
     integer(long) :: wide
     integer :: i
 
@@ -56,9 +54,8 @@ contains
 
   !> Whether words are a number, or a logical with its periods, with a kind behind it as in 1.0_8;
   !> so look digits that are divided as in 30_000.
-  pure function has_kind(words) result(has)
+  pure logical function has_kind(words) result(has)
     character(len=*), intent(in) :: words !! a value as it was typed
-    logical :: has
     integer :: bar
 
     bar = index(words, '_')
@@ -69,9 +66,8 @@ contains
   end function has_kind
 
   !> Whether words are a number: sign, digits with a point, exponent with e or d.
-  pure function is_number(words) result(truth)
+  pure logical function is_number(words) result(truth)
     character(len=*), intent(in) :: words
-    logical :: truth
     integer :: at, mantissa_end, point
 
     truth = .false.
@@ -94,17 +90,15 @@ contains
   end function is_number
 
   !> Whether words are digits, at least one.
-  pure function all_digits(words) result(truth)
+  pure logical function all_digits(words) result(truth)
     character(len=*), intent(in) :: words
-    logical :: truth
     truth = len(words) > 0 .and. verify(words, digits) == 0
   end function all_digits
 
   !> The place behind a sign, where one stands.
-  pure function after_sign(words, at) result(behind)
+  pure integer function after_sign(words, at) result(behind)
     character(len=*), intent(in) :: words
     integer, intent(in) :: at
-    integer :: behind
 
     behind = at
     if (at > len(words)) return
@@ -148,9 +142,8 @@ contains
   end subroutine read_real
 
   !> Power of ten of a number's first digit that is not zero.
-  pure function decimal_power(words) result(power)
+  pure integer function decimal_power(words) result(power)
     character(len=*), intent(in) :: words
-    integer :: power
     character(len=:), allocatable :: mantissa
     integer :: point, first, at
 
@@ -181,9 +174,8 @@ contains
   end function mantissa_of
 
   !> Whether words are a spelling of NaN or infinity.
-  pure function is_nan_or_inf(words) result(truth)
+  pure logical function is_nan_or_inf(words) result(truth)
     character(len=*), intent(in) :: words
-    logical :: truth
     character(len=:), allocatable :: bare
 
     truth = .false.

@@ -13,7 +13,7 @@ module gfb_sensitivity
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_units, only: pi
+  use gfb_units, only: degrees
   use gfb_scene, only: scene_type
   use gfb_study_cases, only: parameter_type, quantity_words
   use gfb_sweep_case, only: swept_key_type, swept_keys
@@ -46,7 +46,6 @@ module gfb_sensitivity
   real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp] !! the same of second order
   real(wp), parameter :: forward(-2:2) = [0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp] !! exact where all is linear
   real(wp), parameter :: enough = 1.0e-10_wp    !! residual of an adjoint, over its right side [1]
-  real(wp), parameter :: degrees = 180.0_wp/pi !! per radian
   integer, parameter :: most_corrections = 10   !! of an adjoint: the factors may be those of a matrix close by
 
   !> What is found of an answer.
@@ -406,10 +405,9 @@ contains
   end subroutine evaluate_operation
 
   !> Whether a key moves neither the film's mesh nor the crests.
-  pure function keeps_meshes(scene, key) result(keeps)
+  pure logical function keeps_meshes(scene, key) result(keeps)
     type(scene_type), intent(in) :: scene
     type(swept_key_type), intent(in) :: key
-    logical :: keeps
 
     associate (name => key%name)
       select case (key%group)
@@ -500,9 +498,8 @@ contains
   end subroutine evaluate_rebuilt
 
   !> Whether two bearings have the same unknowns and contacts.
-  function is_alike(bearing, other) result(alike)
+  logical function is_alike(bearing, other) result(alike)
     type(bearing_system_type), intent(in) :: bearing, other
-    logical :: alike
 
     alike = bearing%local_size() == other%local_size() .and. bearing%film_nodes() == other%film_nodes() .and. &
       size(bearing%pad(1)%foil%contacts%point) == size(other%pad(1)%foil%contacts%point)

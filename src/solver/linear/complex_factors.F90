@@ -296,9 +296,8 @@ contains
   end subroutine subtract_product
 
   !> Largest real or imaginary part.
-  pure function largest_of(values) result(largest)
+  pure real(wp) function largest_of(values) result(largest)
     complex(wp), intent(in) :: values(:)
-    real(wp) :: largest
     largest = max(0.0_wp, maxval(abs(real(values, wp))), maxval(abs(aimag(values))))
   end function largest_of
 

@@ -109,10 +109,9 @@ contains
   end function motion_unknowns
 
   !> Whether motions on half the width are those against the other half's mirror.
-  pure function against_mirror(bearing, coordinate) result(against)
+  pure logical function against_mirror(bearing, coordinate) result(against)
     type(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: coordinate(:) !! of the shaft that move
-    logical :: against
     against = bearing%pad(1)%whole%half .and. coordinate(1) == tilts(1)
   end function against_mirror
 
@@ -241,7 +240,6 @@ contains
     Mat, intent(in) :: matrix
     Mat, intent(out) :: other
     PetscErrorCode :: ierr
-
     PetscCallA(MatDuplicate(matrix, MAT_DO_NOT_COPY_VALUES, other, ierr))
   end subroutine copy_pattern
 
@@ -307,9 +305,8 @@ contains
   end subroutine create_part
 
   !> Columns, from the first, that rows may hold: not those of the shaft, which is moved from outside.
-  pure function coupled_columns(bearing) result(columns)
+  pure integer function coupled_columns(bearing) result(columns)
     type(bearing_system_type), intent(in) :: bearing !! that vibrates
-    integer :: columns
     columns = bearing%unknowns - bearing%blocks%border%scalars
   end function coupled_columns
 

@@ -12,8 +12,7 @@ module gfb_root_bracket
     real(wp) :: low, high       !! places; the last trial is `high`
     real(wp) :: at_low, at_high !! values there, the one at `low` halved where it stays
   contains
-    procedure :: trial
-    procedure :: narrow
+    procedure :: trial, narrow
   end type root_bracket_type
 
 contains

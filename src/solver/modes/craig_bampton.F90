@@ -301,7 +301,6 @@ contains
     type(foil_structure_type), intent(in) :: foil
     integer, intent(in) :: station
     logical :: free(node_unknowns, foil%mesh%rows)
-
     free = foil%free(:, (station - 1)*foil%mesh%rows + 1:station*foil%mesh%rows)
   end function free_on_line
 

@@ -262,8 +262,7 @@ contains
   !> Middle and length of a structure.
   subroutine find_extent(foil, middle, length)
     type(foil_structure_type), intent(in) :: foil
-    real(wp), intent(out) :: middle(space) !! [m]
-    real(wp), intent(out) :: length        !! [m]
+    real(wp), intent(out) :: middle(space), length !! [m]
     real(wp) :: ends(2*space)
 
     associate (mine => foil%mesh%position(:, foil%part%mesh_node))

@@ -189,9 +189,8 @@ contains
   end function factors_by
 
   !> Whether factors are MUMPS'.
-  function are_of_mumps(factors) result(are)
+  logical function are_of_mumps(factors) result(are)
     PC, intent(in) :: factors !! of a linear solver
-    logical :: are
     character(len=80) :: kind, package
     PetscErrorCode :: ierr
 
@@ -244,10 +243,9 @@ contains
   end subroutine drop_factors
 
   !> Room for pivoting to try next [%], where MUMPS found its workspace too small, at most five times; else 0.
-  pure function larger_workspace(status, given) result(room)
+  pure integer function larger_workspace(status, given) result(room)
     integer, intent(in) :: status !! MUMPS' INFOG(1)
     integer, intent(in) :: given  !! room that there was [%]
-    integer :: room
 
     room = 0
     if (status == too_small .and. given < most_room/2) room = max(first_room, 2*given)

@@ -32,7 +32,6 @@ module gfb_line_search
 
   integer, parameter :: most_pieces = 400        !! of a path
   integer, parameter :: most_contacts = 120      !! that change along it
-  real(wp), parameter :: farthest_back = 1.0_wp  !! of t, below where it begins [1]
 
   !> A path of pieces: x - t y + sum of shares times bends.
   type, public :: bent_step_type
@@ -109,7 +108,7 @@ contains
     switched = .false.
     do
       call system%next_change(here, direction, piece, name)
-      piece = min(piece, merge(1.0_wp - t, farthest_back + t, sense > 0.0_wp))
+      piece = min(piece, merge(1.0_wp - t, 1.0_wp + t, sense > 0.0_wp)) ! as far back as forward
       PetscCall(VecAXPY(here, -piece, direction, ierr))
       length = length + piece
       t = t + sense*piece
@@ -117,7 +116,7 @@ contains
       path%length_at(path%changes) = length
       path%t_at(path%changes) = t
       path%share_at(:, path%changes) = share
-      if (t >= 1.0_wp .or. t <= -farthest_back .or. path%changes == most_pieces) exit
+      if (t >= 1.0_wp .or. t <= -1.0_wp .or. path%changes == most_pieces) exit
       call turn(snes, system, name, y, path, switched, slope, direction, sense, leads_on, ierr)
       CHKERRQ(ierr)
       if (.not. leads_on) exit
@@ -428,11 +427,10 @@ contains
 
   !> Whether a trial's residual is, at the present length of the step. Near the end round-off makes residuals jump: a small
   !> full step is taken as it is.
-  pure function is_small_enough(line, residual, full) result(is)
+  pure logical function is_small_enough(line, residual, full) result(is)
     type(line_search_type), intent(in) :: line
     real(wp), intent(in) :: residual !! norm, scaled; not a number where the trial could not be evaluated [1]
     logical, intent(in) :: full      !! the step is not shortened
-    logical :: is
 
     is = residual <= huge(1.0_wp)
     if (is) is = residual <= (1.0_wp - sufficient*line%length)*maxval(line%past) .or. (line%step <= stagnation .and. full)

@@ -146,10 +146,9 @@ contains
   end subroutine show_enlargements
 
   !> The norm over all equations of what rounding may leave of the scaled residual [1].
-  function backward_error(matrix, state) result(rounding)
+  real(wp) function backward_error(matrix, state) result(rounding)
     Mat, intent(in) :: matrix !! the derivative of the residual, scaled
     Vec, intent(in) :: state  !! scaled
-    real(wp) :: rounding
 
     Mat :: magnitudes
     Vec :: sizes, sums

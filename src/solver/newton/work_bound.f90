@@ -14,10 +14,7 @@ module gfb_work_bound
     integer :: most = huge(1) !! that the search may take
     integer :: spent = 0      !! so far
   contains
-    procedure :: begin
-    procedure :: lift
-    procedure :: is_reached
-    procedure :: words
+    procedure :: begin, lift, is_reached, words
   end type work_bound_type
 
 contains
@@ -38,9 +35,8 @@ contains
   end subroutine lift
 
   !> Whether all factorizations are spent.
-  pure function is_reached(self) result(reached)
+  pure logical function is_reached(self) result(reached)
     class(work_bound_type), intent(in) :: self !! of the search
-    logical :: reached
     reached = self%spent >= self%most
   end function is_reached
 
@@ -58,9 +54,8 @@ contains
   end subroutine count_factorization
 
   !> Whether a search has spent all of them.
-  pure function is_spent(bound) result(spent)
+  pure logical function is_spent(bound) result(spent)
     type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
-    logical :: spent
 
     spent = .false.
     if (associated(bound)) spent = bound%is_reached()
@@ -69,9 +64,8 @@ contains
   !> Whether a search has to end: a signal asks for it, or all factorizations are spent.
   !>
   !> No solve converges then, and one that does not tells nothing of the bearing.
-  function gives_up(bound) result(ends)
+  logical function gives_up(bound) result(ends)
     type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
-    logical :: ends
     ends = stop_agreed() .or. is_spent(bound)
   end function gives_up
 end module gfb_work_bound

@@ -96,8 +96,7 @@ contains
   !> Shares of columns that leave the least of a vector, by Gram and Schmidt; columns that say
   !> nothing new have none.
   subroutine least_change(column, vector, share)
-    real(wp), intent(in) :: column(:, :) !! this rank's rows
-    real(wp), intent(in) :: vector(:)    !! this rank's rows
+    real(wp), intent(in) :: column(:, :), vector(:) !! this rank's rows
     real(wp), intent(out) :: share(:)    !! one a column [1]
 
     real(wp) :: basis(size(column, 1), size(column, 2)), triangle(size(share), size(share))
@@ -129,9 +128,8 @@ contains
   end subroutine least_change
 
   !> Scalar product over all ranks.
-  function product_of(a, b) result(total)
+  real(wp) function product_of(a, b) result(total)
     real(wp), intent(in) :: a(:), b(:) !! this rank's rows
-    real(wp) :: total
     real(wp) :: part(1)
 
     part = sum_over_ranks([dot_product(a, b)])

@@ -302,11 +302,10 @@ contains
   end subroutine begin_side_step
 
   !> Work of the residual forces on the foil along a step, scaled.
-  function work_on_side(self, residual, step) result(work)
+  real(wp) function work_on_side(self, residual, step) result(work)
     class(coupling_side_type), intent(in) :: self !! the side
     Vec, intent(in) :: residual !! of the side, scaled
     Vec, intent(in) :: step !! of the side, scaled
-    real(wp) :: work
     PetscErrorCode :: ierr
 
     PetscCallA(VecSet(self%whole_residual, 0.0_wp, ierr))
@@ -543,8 +542,7 @@ contains
   !> Largest size over all ranks.
   function largest(values)
     real(wp), intent(in) :: values(:) !! this rank's
-    real(wp) :: largest
-    real(wp) :: whole(1)
+    real(wp) :: largest, whole(1)
 
     whole = largest_over_ranks([maxval([0.0_wp, abs(values)])])
     largest = whole(1)

@@ -27,7 +27,6 @@ module gfb_arc
   private
   public :: begin_arc, advance_arc, create_arc, end_arc, visit_arc, visit_steps
 
-  real(wp), parameter :: growth = 2.0_wp
   real(wp), parameter :: sharpest_turn = 0.5_wp    !! cosine between successive steps
   real(wp), parameter :: beyond_opening = 1.0e-3_wp !! of a contact, over the clearance [1]
   real(wp), parameter :: beyond_closing = 1.0e-6_wp !! the same, its penetration
@@ -36,7 +35,7 @@ module gfb_arc
   real(wp), parameter :: near = 0.2_wp             !! a change of contact that is turned round at once, over the step
   real(wp), parameter :: short_of_it = 0.9_wp      !! of the distance to a change of contact
   real(wp), parameter :: closer = 0.1_wp        !! beyond after a failure, over that before
-  integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is longer
+  integer, parameter :: easy_iterations = 6        !! after a step that took no more the next is doubled
   integer, parameter :: corner_iterations = 25     !! at most, of a step round a corner
 
   real(wp), parameter :: first_step = 1.0e-3_wp
@@ -75,13 +74,7 @@ module gfb_arc
     Vec :: previous_tangent, earlier_tangent !! tangents at the last answer, at the one before the last but one
     Vec :: work
   contains
-    procedure :: between
-    procedure :: return_to
-    procedure :: nears_fold
-    procedure :: to_turn
-    procedure :: path_length
-    procedure :: length_of
-    procedure :: weigh
+    procedure :: between, return_to, nears_fold, to_turn, path_length, length_of, weigh
   end type arc_type
 
 contains
@@ -169,7 +162,7 @@ contains
     arc%last_length = length
     call find_tangent(arc)
     arc%step = min(arc%step_limit, max(least_start, length))
-    if (easy) arc%step = min(arc%step_limit, growth*arc%step)
+    if (easy) arc%step = min(arc%step_limit, 2.0_wp*arc%step)
     arc%steps = arc%steps + 1
   end subroutine advance_arc
 
@@ -259,9 +252,8 @@ contains
   end subroutine turn_corner
 
   !> Whether a step round a corner is not a leap to another branch.
-  function stays_near(arc) result(near_by)
+  logical function stays_near(arc) result(near_by)
     type(arc_type), intent(inout) :: arc
-    logical :: near_by
     near_by = arc%path_length() <= min(longest_step, longest_leap*max(arc%last_length, least_start))
   end function stays_near
 
@@ -359,9 +351,8 @@ contains
   end subroutine nears_fold
 
   !> Length of the path from the base to the state.
-  function path_length(self) result(length)
+  real(wp) function path_length(self) result(length)
     class(arc_type), intent(inout) :: self !! the arc
-    real(wp) :: length
     PetscErrorCode :: ierr
 
     PetscCallA(VecWAXPY(self%work, -1.0_wp, self%path%base, self%path%state, ierr))
@@ -369,10 +360,9 @@ contains
   end function path_length
 
   !> Length of a vector in the arc's measure.
-  function length_of(self, vector) result(length)
+  real(wp) function length_of(self, vector) result(length)
     class(arc_type), intent(in) :: self !! the arc
     Vec, intent(in) :: vector !! of all ranks
-    real(wp) :: length
     Vec :: weighted
     PetscErrorCode :: ierr
 

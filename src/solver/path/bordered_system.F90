@@ -37,11 +37,7 @@ module gfb_bordered_system
     procedure :: settle => settle_path
     procedure :: begin_step => begin_path_step
     procedure :: virtual_work => path_work
-    procedure :: lambda_of
-    procedure :: set_lambda
-    procedure :: join
-    procedure :: split
-    procedure :: give
+    procedure :: lambda_of, set_lambda, join, split, give
     procedure, private :: point_at
   end type bordered_system_type
 
@@ -90,10 +86,9 @@ contains
   end subroutine create_bordered_matrix
 
   !> Puts a state's unknowns of the bearing into `inner`; returns its lambda.
-  function lambda_of(self, state) result(lambda)
+  real(wp) function lambda_of(self, state) result(lambda)
     class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     Vec, intent(in) :: state !! with lambda, scaled
-    real(wp) :: lambda
     real(wp) :: value(1)
 
     call self%border%split(state, self%inner)
@@ -135,9 +130,8 @@ contains
   end subroutine split
 
   !> Gives the present state to the bearing, and its operating point; returns lambda.
-  function give(self) result(lambda)
+  real(wp) function give(self) result(lambda)
     class(bordered_system_type), intent(in) :: self !! bearing and path parameter
-    real(wp) :: lambda
     PetscErrorCode :: ierr
 
     lambda = self%lambda_of(self%state)
@@ -212,11 +206,10 @@ contains
   end subroutine begin_path_step
 
   !> Work of the residual forces on the foil along a step, scaled.
-  function path_work(self, residual, step) result(work)
+  real(wp) function path_work(self, residual, step) result(work)
     class(bordered_system_type), intent(in) :: self !! bearing and path parameter
     Vec, intent(in) :: residual !! with the row of lambda, scaled
     Vec, intent(in) :: step !! of the state, with lambda, scaled
-    real(wp) :: work
     work = self%bearing%virtual_work(residual, step)
   end function path_work
 

@@ -467,18 +467,16 @@ contains
   end subroutine name_end
 
   !> Whether the gap is so small that the film thins fast from step to step.
-  function is_closing(bearing) result(closing)
+  logical function is_closing(bearing) result(closing)
     type(bearing_system_type), intent(in) :: bearing
-    logical :: closing
     closing = bearing%smallest_gap() < closing_gap*bearing%clearance
     if (closing) closing = .not. bearing%pad(1)%contact%present
   end function is_closing
 
   !> Whether the film's pressure has fallen to nothing somewhere.
-  pure function is_emptied(bearing, answer) result(emptied)
+  pure logical function is_emptied(bearing, answer) result(emptied)
     type(bearing_system_type), intent(in) :: bearing
     type(bearing_answer_type), intent(in) :: answer !! at its present state
-    logical :: emptied
     emptied = answer%minimum_pressure < empty*bearing%pad(1)%film%ambient_pressure
   end function is_emptied
 

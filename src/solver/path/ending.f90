@@ -24,9 +24,7 @@ module gfb_ending
     integer :: kind = ending_lost !! one of those above
     character(len=:), allocatable, private :: sentence
   contains
-    procedure :: words
-    procedure :: add_words
-    procedure :: has_cause
+    procedure :: words, add_words, has_cause
   end type ending_type
 
   !> Limits of a path.
@@ -75,9 +73,8 @@ contains
   end subroutine add_words
 
   !> Whether the path ended for a cause in the bearing, rather than in Newton's method.
-  elemental function has_cause(self) result(has)
+  elemental logical function has_cause(self) result(has)
     class(ending_type), intent(in) :: self !! of a path
-    logical :: has
     has = any(self%kind == [ending_touch_down, ending_fold, ending_emptied, ending_suction])
   end function has_cause
 

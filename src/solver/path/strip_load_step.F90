@@ -144,9 +144,8 @@ contains
   end subroutine solve_step
 
   !> Whether a plate that is moved has not come to any crest of the strip at rest.
-  function is_out_of_reach(strip) result(out_of_reach)
+  logical function is_out_of_reach(strip) result(out_of_reach)
     type(strip_system_type), intent(in) :: strip
-    logical :: out_of_reach
 
     out_of_reach = strip%plate == plate_moved
     if (.not. out_of_reach) return

@@ -281,12 +281,11 @@ contains
   !> The point one period later, with the same period and parameter; `.false.` where a step has no answer.
   !>
   !> A step that would have to be shortened has none: all steps are equal.
-  function apply_map(map, x, y, keep) result(done)
+  logical function apply_map(map, x, y, keep) result(done)
     type(period_map_type), intent(inout) :: map !! counts periods; gets the orbit; its bearing is left at the end
     real(wp), intent(in) :: x(:)  !! the point [1]
     real(wp), intent(out) :: y(:) !! one period later [1]
     logical, intent(in) :: keep   !! the smallest gap of the orbit is wanted
-    logical :: done
     type(march_type) :: march
     type(newton_report_type) :: report
     type(shaft_drive_type) :: drive

@@ -121,14 +121,13 @@ contains
   end subroutine find_eigenvalues
 
   !> From a point near an orbit to the orbit; `.false.` where none is found.
-  function shoot(map, condition, derivative, x, y, iterations) result(found)
+  logical function shoot(map, condition, derivative, x, y, iterations) result(found)
     type(period_map_type), intent(inout) :: map !! the map
     type(condition_type), intent(in) :: condition !! that close the system
     type(derivative_type), intent(inout) :: derivative !! learns from each iteration
     real(wp), intent(inout) :: x(:) !! the point, then the orbit [1]
     real(wp), intent(out) :: y(:)   !! what it is mapped to [1]
     integer, intent(out) :: iterations !! periods marched
-    logical :: found
     real(wp) :: step(size(x)), before(size(x)), size_of_step, open, opened
     integer :: halvings
 
@@ -171,11 +170,10 @@ contains
   end function step_free
 
   !> How far a point is from an orbit, and from its conditions.
-  function opening(map, condition, x, y) result(open)
+  real(wp) function opening(map, condition, x, y) result(open)
     type(period_map_type), intent(in) :: map
     type(condition_type), intent(in) :: condition
     real(wp), intent(in) :: x(:), y(:)
-    real(wp) :: open
 
     open = length_of(map, y - x)
     open = max(open, maxval(abs(condition%value - dots(map, condition%row, x))))
@@ -259,13 +257,12 @@ contains
   end subroutine model_step
 
   !> The map's derivative at an orbit, from nothing, and its multipliers; `.false.` where the map fails beside it.
-  function find_monodromy(map, x, y, derivative, floquet) result(done)
+  logical function find_monodromy(map, x, y, derivative, floquet) result(done)
     type(period_map_type), intent(inout) :: map !! the map
     real(wp), intent(in) :: x(:) !! the orbit [1]
     real(wp), intent(in) :: y(:) !! what it is mapped to [1]
     type(derivative_type), intent(out) :: derivative !! from nothing
     type(floquet_type), intent(out) :: floquet !! of the orbit
-    logical :: done
     real(wp) :: direction(size(x)), image(size(x)), length, beside
     real(wp), allocatable :: inner(:, :), share(:)
     integer :: k, i, entry
@@ -304,11 +301,10 @@ contains
   end function find_monodromy
 
   !> What a direction is mapped to, by a difference of the map.
-  function image_of(map, x, y, direction, image) result(done)
+  logical function image_of(map, x, y, direction, image) result(done)
     type(period_map_type), intent(inout) :: map
     real(wp), intent(in) :: x(:), y(:), direction(:)
     real(wp), intent(out) :: image(:)
-    logical :: done
 
     done = apply_map(map, x + difference*direction, image, .false.)
     image = (image - y)/difference
@@ -345,12 +341,11 @@ contains
   end function fixed_parameter
 
   !> The first value of the parameter, from that of a point on, at which the growth of its equilibrium changes its sign.
-  function find_onset(map, x, final_value, onset) result(found)
+  logical function find_onset(map, x, final_value, onset) result(found)
     type(period_map_type), intent(inout) :: map !! of one turn, not free
     real(wp), intent(in) :: x(:) !! equilibrium, to begin with [1]
     real(wp), intent(in) :: final_value !! of the parameter [its unit]
     type(whirl_type), intent(out) :: onset
-    logical :: found
     type(whirl_type) :: low, high, trial
     real(wp) :: way, share
     integer :: i
@@ -385,11 +380,10 @@ contains
   end function find_onset
 
   !> The onset again in steps of which whole ones are a period of the whirl: those of its limit cycles.
-  function refine(map, slope, onset) result(found)
+  logical function refine(map, slope, onset) result(found)
     type(period_map_type), intent(inout) :: map !! gets the steps of that period
     real(wp), intent(in) :: slope !! of the growth over the parameter
     type(whirl_type), intent(inout) :: onset
-    logical :: found
     integer, parameter :: times = 2
     type(shaft_drive_type) :: drive
     type(whirl_type) :: trial
@@ -413,12 +407,11 @@ contains
   end function refine
 
   !> The equilibrium at a value of the parameter, and its least damped mode.
-  function look_at(map, x, value, whirl) result(found)
+  logical function look_at(map, x, value, whirl) result(found)
     type(period_map_type), intent(inout) :: map
     real(wp), intent(in) :: x(:) !! an equilibrium near by
     real(wp), intent(in) :: value !! [its unit]
     type(whirl_type), intent(out) :: whirl
-    logical :: found
     type(derivative_type) :: derivative
     type(floquet_type) :: floquet
     type(condition_type) :: condition

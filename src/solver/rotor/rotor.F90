@@ -127,9 +127,8 @@ contains
 
   !> How a motion goes round, \( q e^{i \omega t} \) with positive frequency: 1 a circle with the
   !> speed, -1 a circle against it, 0 to and fro.
-  pure function whirl_sense(q) result(sense)
+  pure real(wp) function whirl_sense(q) result(sense)
     complex(wp), intent(in) :: q(planar) !! in any unit [SI]
-    real(wp) :: sense
     sense = -2.0_wp*aimag(conjg(q(1))*q(2))/max(tiny(1.0_wp), sum(abs(q)**2))
   end function whirl_sense
 end module gfb_rotor

@@ -70,10 +70,7 @@ module gfb_rotor_modes
     complex(wp), allocatable :: value(:)  !! logarithm of g there [1]
     logical :: failed = .false.           !! the circle runs through a zero
   contains
-    procedure :: next
-    procedure :: tell
-    procedure :: place
-    procedure :: missing
+    procedure :: next, tell, place, missing
   end type mode_count_type
 
   real(wp), parameter :: first_move = 1.0e-5_wp !! of the secant method, over the rate [1]

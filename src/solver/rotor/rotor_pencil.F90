@@ -126,9 +126,8 @@ contains
   end subroutine put_rotor
 
   !> Entries of a vector on this rank that belong to a share.
-  elemental function entries_of(share) result(entries)
+  elemental integer function entries_of(share) result(entries)
     type(share_type), intent(in) :: share !! film and foil of one bearing
-    integer :: entries
     entries = share%entries*merge(2, 1, share%has_mass)
   end function entries_of
 
@@ -235,9 +234,8 @@ contains
   contains
 
     !> Product of the foil's displacements with their forces by a matrix.
-    function product_by(matrix) result(energy)
+    real(wp) function product_by(matrix) result(energy)
       Mat, intent(in) :: matrix
-      real(wp) :: energy
 
       PetscCallA(MatMult(matrix, share%one, share%other, ierr))
       PetscCallA(VecPointwiseMult(share%other, share%other, share%foil, ierr))

@@ -44,9 +44,8 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! gets a start value
     real(wp) :: coarse(small%local_size()), unknown(bearing%local_size()), now(bearing%local_size())
     real(wp) :: share(corners, bearing%film_nodes())
-    integer :: around(corners, bearing%film_nodes())
+    integer :: around(corners, bearing%film_nodes()), i, k
     type(foil_surface_type), allocatable :: surface(:), small_surface(:)
-    integer :: i, k
 
     call small%get_unknowns(coarse)
     unknown = 0.0_wp
@@ -191,8 +190,7 @@ contains
     integer, intent(in) :: own(:)      !! nodes of the bump foil
     real(wp), intent(in) :: unknown(:) !! local ones of the pad, in SI
     real(wp) :: value(spatial, size(own))
-    integer :: place(maxval([0, own]))
-    integer :: i
+    integer :: place(maxval([0, own])), i
 
     place = 0
     place(own) = [(i, i=1, size(own))]

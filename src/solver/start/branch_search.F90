@@ -45,10 +45,7 @@ module gfb_branch_search
     real(wp) :: lifts(2) = 0.0_wp    !! of the free edge, the smallest and the largest looked at [m]
     type(branch_type), allocatable :: branch(:)
   contains
-    procedure :: wanted_of
-    procedure :: nearest_branch
-    procedure :: is_found
-    procedure :: collect
+    procedure :: wanted_of, nearest_branch, is_found, collect
   end type branch_search_type
 
   integer, parameter :: most_steps = 600        !! along one curve
@@ -125,26 +122,22 @@ contains
   end function lifts
 
   !> Mean lift of a pad's leading edge that is asked for [m].
-  pure function wanted_of(self, pad) result(mean)
+  pure real(wp) function wanted_of(self, pad) result(mean)
     class(branch_search_type), intent(in) :: self !! the search
     integer, intent(in) :: pad !! its number
-    real(wp) :: mean
     mean = sum(self%wanted(:, pad), mask=self%given)/real(count(self%given), wp)
   end function wanted_of
 
   !> The equilibrium whose leading edge is lifted most nearly as asked for.
-  pure function nearest_branch(self) result(number)
+  pure integer function nearest_branch(self) result(number)
     class(branch_search_type), intent(in) :: self !! the search
-    integer :: number
     integer :: i
-
     number = minloc([(distance(self, i), i=1, size(self%branch))], 1)
   end function nearest_branch
 
   !> Whether one that was asked for has been found.
-  pure function is_found(self) result(found)
+  pure logical function is_found(self) result(found)
     class(branch_search_type), intent(in) :: self !! the search
-    logical :: found
 
     found = .false.
     if (.not. allocated(self%branch)) return
@@ -361,11 +354,10 @@ contains
   end subroutine pull_edge
 
   !> Whether an edge that is lifted so much in the mean may lead to the lift asked for.
-  pure function is_worth_it(search, pad, lift, clearance) result(worth)
+  pure logical function is_worth_it(search, pad, lift, clearance) result(worth)
     type(branch_search_type), intent(in) :: search
     integer, intent(in) :: pad !! whose edge
     real(wp), intent(in) :: lift, clearance !! [m]
-    logical :: worth
 
     worth = .not. any(search%given)
     if (.not. worth) worth = abs(lift - search%wanted_of(pad)) <= release_range*clearance

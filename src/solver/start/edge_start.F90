@@ -383,9 +383,8 @@ contains
   end subroutine try_with_bent_edge
 
   !> Whether nodes of the edge move apart: those of shells do, those of a beam do not.
-  function edge_bends(bearing) result(bends)
+  logical function edge_bends(bearing) result(bends)
     type(bearing_system_type), intent(in) :: bearing
-    logical :: bends
     bends = any_rank(bearing%pad(1)%edge%pairs() > 0)
   end function edge_bends
 end module gfb_edge_start

@@ -17,8 +17,7 @@ module gfb_saved_state
   contains
     procedure :: save => save_state
     procedure :: restore => restore_state
-    procedure :: change
-    procedure :: destroy
+    procedure :: change, destroy
   end type saved_state_type
 
 contains

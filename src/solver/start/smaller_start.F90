@@ -57,9 +57,8 @@ contains
   end subroutine find_smaller
 
   !> Whether a mesh of foils lies between one and the next smaller one: many rows were left out at once.
-  pure function lies_between(plan, small_plan) result(lies)
+  pure logical function lies_between(plan, small_plan) result(lies)
     type(bearing_plan_type), intent(in) :: plan, small_plan !! meshes of both
-    logical :: lies
     lies = plan%circumferential == small_plan%circumferential .and. (plan%half .eqv. small_plan%half) .and. &
       plan%axial > 2*small_plan%axial
   end function lies_between
@@ -78,11 +77,10 @@ contains
   end subroutine find_between
 
   !> Whether half the width has the answer too: of foils, where the sweep alone tilts.
-  pure function can_halve(scene, plan, target) result(can)
+  pure logical function can_halve(scene, plan, target) result(can)
     type(scene_type), intent(in) :: scene
     type(bearing_plan_type), intent(in) :: plan
     type(operating_point_type), intent(in) :: target
-    logical :: can
 
     can = meshes_foils(scene%model%foil) .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
       modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%place(4:5)) > 0.0_wp)
@@ -129,9 +127,8 @@ contains
   end function fewest_rows
 
   !> Whether half the elements of a film each way still make a mesh.
-  pure function can_coarsen(plan) result(can)
+  pure logical function can_coarsen(plan) result(can)
     type(bearing_plan_type), intent(in) :: plan
-    logical :: can
     integer :: solved
 
     solved = merge(plan%axial/2, plan%axial, plan%half)

@@ -1,24 +1,29 @@
 #include "gfb_petsc.h"
-!> The cold starts: which are tried on a bearing, and in what order.
+!> The cold starts: which are tried on a bearing, and in what order; what the shaft presses back, without its
+!> interference of assembly first.
 module gfb_start_list
   use gfb_kinds, only: wp
-  use gfb_ending, only: path_stopped, ending_suction
+  use gfb_ending, only: path_stopped, ending_suction, path_reached, path_touches_at, path_lost
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
-  use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, clearance_of, trial_settings, usual_eccentricity
+  use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, &
+                               clearance_of, trial_settings, usual_eccentricity, first_step
   use gfb_saved_state, only: saved_state_type
-  use gfb_newton, only: find_determinant_sign
+  use gfb_newton, only: find_determinant_sign, newton_type, newton_report_type, solve_newton
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
   use gfb_contactless_start, only: try_from_rest, try_laid_down
   use gfb_soft_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_bearing_directions, only: has_free_edge, edge_lift
   use gfb_edge_start, only: resting, next_height, try_free_edge
-  use gfb_interference_start, only: close_interference, set_interference
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, &
+                         steps_given_up
   implicit none (type)
   private
-  public :: starts_of, soft_starts_of, start_name, try_start, try_starts, start_pressed
+  public :: starts_of, soft_starts_of, start_name, try_start, try_starts, start_pressed, close_interference, &
+            set_interference
 
   integer, parameter, public :: start_smaller_answer = 1
   integer, parameter, public :: start_smaller_end = 2
@@ -49,6 +54,24 @@ module gfb_start_list
 
   type(soft_contacts_type), parameter :: late = soft_contacts_type(after, usual_eccentricity, 1.5_wp, 2.0_wp)
   type(soft_contacts_type), parameter :: near_the_foil = soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp)
+
+  real(wp), parameter :: smallest_share = 0.005_wp !! of the interference in a step, before it is given up [1]
+  integer, parameter :: max_iterations = 20 !! of such a step
+  real(wp), parameter :: growth = 1.5_wp    !! of one that succeeded [1]
+
+  !> A bearing whose shaft grows to its size; the parameter is the share of the interference.
+  type, extends(path_problem_type) :: interference_path_type
+    type(bearing_system_type), pointer :: bearing => null()
+    type(newton_type), pointer :: newton => null() !! its solver
+    real(wp) :: whole = 0.0_wp         !! interference [m]
+    type(newton_report_type) :: solved !! of the last trial
+    type(saved_state_type) :: saved     !! the last answer
+  contains
+    procedure :: try => try_interference
+    procedure :: accept => accept_interference
+    procedure :: restore => restore_interference
+    procedure :: gives_up => search_gives_up
+  end type interference_path_type
 
   !> The last state of the start that came nearest to an answer.
   type :: nearest_type
@@ -105,7 +128,6 @@ contains
   pure function start_name(start) result(name)
     integer, intent(in) :: start !! of the list
     character(len=:), allocatable :: name
-
     name = trim(names(start))
   end function start_name
 
@@ -206,10 +228,9 @@ contains
 
   !> Whether a start under a lighter load may find another branch: not where the film draws the edge to the shaft, and not where a
   !> smaller system has been searched so.
-  function suits_lighter_load(problem, report) result(suits)
+  logical function suits_lighter_load(problem, report) result(suits)
     type(start_problem_type), intent(in) :: problem
     type(path_report_type), intent(in) :: report !! of the starts before
-    logical :: suits
 
     suits = problem%bearing%floats .and. problem%bearing%has_contacts() .and. .not. &
       (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction)
@@ -246,9 +267,8 @@ contains
   end subroutine try_lighter_load
 
   !> Whether a start that fails leaves a state without a fixed edge on this system.
-  pure function leaves_a_state(start) result(leaves)
+  pure logical function leaves_a_state(start) result(leaves)
     integer, intent(in) :: start !! of the list
-    logical :: leaves
     leaves = all(start /= [start_smaller_answer, start_smaller_end, start_edge_fixed])
   end function leaves_a_state
 
@@ -312,9 +332,8 @@ contains
   end subroutine try_several_edges
 
   !> Whether an answer may be a stable one: the sign of its determinant speaks for it.
-  function may_be_stable(problem) result(may_be)
+  logical function may_be_stable(problem) result(may_be)
     type(start_problem_type), intent(in) :: problem
-    logical :: may_be
     integer :: sign_of_determinant
 
     call find_determinant_sign(problem%newton, sign_of_determinant)
@@ -322,11 +341,10 @@ contains
   end function may_be_stable
 
   !> Whether a start led to an answer at which no free edge is lifted.
-  function edges_rest(problem, report, highest) result(rest)
+  logical function edges_rest(problem, report, highest) result(rest)
     type(start_problem_type), intent(in) :: problem
     type(path_report_type), intent(in) :: report !! of the start
     real(wp), intent(in) :: highest !! edge that counts as resting, over the clearance [1]
-    logical :: rest
     integer :: pad
 
     rest = report%converged()
@@ -334,4 +352,82 @@ contains
       if (rest) rest = edge_lift(problem%bearing, pad) < highest*clearance_of(problem%bearing)
     end do
   end function edges_rest
+
+  !> From an answer without interference to that with all of it, at the same operating point; a step that fails is halved.
+  !>
+  !> At rest there is no gap between an undeflected foil and a shaft that is larger than the bore in it, and no film to
+  !> begin with. With no interference there is; from the answer there the shaft grows in steps to its size.
+  subroutine close_interference(problem, interference, report)
+    type(start_problem_type), intent(inout) :: problem !! at an answer without interference
+    real(wp), intent(in) :: interference !! asked for [m]
+    type(path_report_type), intent(inout) :: report !! of success, which becomes one of failure where a step is too small
+    type(interference_path_type) :: path
+    real(wp) :: least !! gap [m]
+    integer :: allowed, ending
+    logical :: touched
+
+    path%bearing => problem%bearing
+    path%newton => problem%newton
+    path%whole = interference
+    call path%saved%save(problem%bearing)
+    allowed = problem%newton%settings%maximum_iterations
+    problem%newton%settings%maximum_iterations = min(max_iterations, allowed)
+    call follow_steps(path, step_rules_type(first_step=first_step, smallest_step=smallest_share, growth=growth, &
+                                            cuts_the_trial=.true.), ending)
+    problem%newton%settings%maximum_iterations = allowed
+    call path%saved%destroy()
+    least = problem%settings%touch_down_gap
+    if (ending /= steps_arrived) least = max(least, smallest_share*interference)
+    touched = problem%bearing%smallest_gap() < least
+    if (ending == steps_arrived .and. .not. (touched .and. problem%bearing%floats)) then
+      report%ending = path_reached()
+    else if (touched .and. ending /= steps_given_up) then
+      report%ending = path_touches_at('where the interference is '//text(path%at*interference, 4)//' m')
+    else
+      report%ending = path_lost('no step leads beyond an interference of '//text(path%at*interference, 4)//' m: '//path%solved%reason)
+    end if
+  end subroutine close_interference
+
+  !> A share of the interference: Newton's method from the last answer.
+  subroutine try_interference(self, trial, may_be_cut, converged, iterations)
+    class(interference_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial     !! share [1]
+    logical, intent(in) :: may_be_cut !! does not matter
+    logical, intent(out) :: converged !! there is an answer
+    integer, intent(out) :: iterations
+
+    call set_interference(self%bearing, trial*self%whole)
+    call self%newton%log%detail('interference '//text(trial*self%whole, 4)//' m')
+    call solve_newton(self%newton, self%solved)
+    converged = self%solved%converged
+    iterations = self%solved%iterations
+  end subroutine try_interference
+
+  !> Saves an answer.
+  subroutine accept_interference(self, trial)
+    class(interference_path_type), intent(inout) :: self !! the path
+    real(wp), intent(in) :: trial !! share [1]
+    call self%saved%save(self%bearing)
+  end subroutine accept_interference
+
+  !> Goes back to the last answer.
+  subroutine restore_interference(self)
+    class(interference_path_type), intent(inout) :: self !! the path
+
+    call self%saved%restore(self%bearing)
+    call set_interference(self%bearing, self%at*self%whole)
+  end subroutine restore_interference
+
+  !> Whether all work that is allowed is done.
+  logical function search_gives_up(self)
+    class(interference_path_type), intent(inout) :: self !! the path
+    search_gives_up = gives_up(self%newton%settings%bound)
+  end function search_gives_up
+
+  !> Takes an interference off the gap of all pads.
+  subroutine set_interference(bearing, interference)
+    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
+    real(wp), intent(in) :: interference !! of the shaft [m]
+    bearing%pad%film%interference = interference
+  end subroutine set_interference
 end module gfb_start_list

@@ -73,9 +73,8 @@ contains
   end function settings_with_fixed_edge
 
   !> The bearing's clearance [m].
-  pure function clearance_of(bearing) result(clearance)
+  pure real(wp) function clearance_of(bearing) result(clearance)
     type(bearing_system_type), intent(in) :: bearing !! a bearing
-    real(wp) :: clearance
     clearance = bearing%clearance
   end function clearance_of
 

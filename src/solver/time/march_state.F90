@@ -53,8 +53,7 @@ module gfb_march_state
     type(operating_point_type) :: start !! whose tilt and fixed position stay
     Vec :: state(kept_times) !! scaled, now and before, with all their digits
   contains
-    procedure :: turns
-    procedure :: way_in_bearings
+    procedure :: turns, way_in_bearings
   end type march_type
 
 contains
@@ -75,11 +74,10 @@ contains
   end function place_ahead
 
   !> Error of a step in the sleeve's place, that of the bearing where it is larger [m].
-  pure function error_of(march, step, place) result(error)
+  pure real(wp) function error_of(march, step, place) result(error)
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: step !! [s]
     real(wp), intent(in) :: place(shaft_coordinates) !! that it led to [m], [rad]
-    real(wp) :: error
     error = error_share([step, march%past_step(:2)])*largest_way(march, place - place_ahead(march, step))
   end function error_of
 
@@ -128,9 +126,8 @@ contains
   end function allowed_step
 
   !> Steps of a turn that are asked for, or to begin with where the error chooses them.
-  pure function first_step(march) result(step)
+  pure real(wp) function first_step(march) result(step)
     type(march_type), intent(in) :: march
-    real(wp) :: step
     real(wp), parameter :: short = 0.02_wp !! over the longest one [1]
 
     step = short*longest_step(march)
@@ -138,24 +135,21 @@ contains
   end function first_step
 
   !> A step where their number is given.
-  pure function usual_step(march) result(step)
+  pure real(wp) function usual_step(march) result(step)
     type(march_type), intent(in) :: march
-    real(wp) :: step
     step = 2.0_wp*pi/(march%settings%steps_per_turn*fastest(march))
   end function usual_step
 
   !> The longest step.
-  pure function longest_step(march) result(step)
+  pure real(wp) function longest_step(march) result(step)
     type(march_type), intent(in) :: march
-    real(wp) :: step
     step = 2.0_wp*pi/(march%settings%least_steps*fastest(march))
   end function longest_step
 
   !> The speed whose turns are divided: the present one, a tenth of the largest one at least; that of one turn in the whole
   !> time where nothing turns.
-  pure function fastest(march) result(speed)
+  pure real(wp) function fastest(march) result(speed)
     type(march_type), intent(in) :: march
-    real(wp) :: speed
     associate (drive => march%drive, end_time => march%settings%end_time)
       speed = max(abs(drive%speed_at(march%time)), abs(drive%orbit_frequency), &
                   0.1_wp*max(abs(drive%speed), abs(drive%speed_at(end_time))))

@@ -30,7 +30,6 @@ module gfb_time_march
   public :: begin_rubbing, march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
-  real(wp), parameter :: shortened = 0.5_wp !! a step that does not converge, once more [1]
   integer, parameter :: most_trials = 12 !! of one step
   real(wp), parameter :: unit(2, 2) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
 
@@ -265,7 +264,7 @@ contains
         if (march%settings%steps_per_turn > 0.0_wp .or. error < rejected) exit
         step = next_step(step, error)
       else
-        step = shortened*step
+        step = 0.5_wp*step
       end if
       march%rejections = march%rejections + 1
       call bearing%return_to(march%state(1))
@@ -361,7 +360,6 @@ contains
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: weight(0:2) !! of the step [1/s]
     real(wp) :: place(film_forces)
-
     place = free_value(weight, march%place, march%velocity)
   end function free_place
 
@@ -389,7 +387,6 @@ contains
     type(march_type), intent(in) :: march
     real(wp), intent(in) :: time !! [s]
     real(wp) :: matrix(2, 2)     !! [N m s]
-
     matrix = march%drive%polar_inertia*march%drive%speed_at(time)*reshape([0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp], [2, 2])
   end function gyration
 

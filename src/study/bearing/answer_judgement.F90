@@ -63,10 +63,9 @@ contains
     type(newton_type), intent(inout) :: newton !! its solver
     type(quantity_type), allocatable, intent(out) :: list(:) !! what is known of it
     type(stability_type) :: stability
-    integer :: sign_of_determinant
+    integer :: sign_of_determinant, i
     real(wp), allocatable :: stiffness(:)
     logical, allocatable :: known(:)
-    integer :: i
 
     allocate (list(0))
     if (scene%solver%stability) then
@@ -155,11 +154,9 @@ contains
   end function result_part
 
   !> Variance that independent deviations of the parameters cause, to first order.
-  pure function variance_of(scene, derivative) result(variance)
+  pure real(wp) function variance_of(scene, derivative) result(variance)
     type(scene_type), intent(in) :: scene
     real(wp), intent(in) :: derivative(:) !! of a quantity, one a parameter
-    real(wp) :: variance
-
     variance = sum((derivative*scene%sensitivity%parameter%tolerance)**2)
   end function variance_of
 

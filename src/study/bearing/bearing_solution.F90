@@ -50,24 +50,9 @@ module gfb_bearing_solution
     logical, private :: partitioned = .false. !! film and foil are solved in turns
     type(partitioned_type), private :: sides  !! of the bearing, then
   contains
-    procedure :: set_up
-    procedure :: start
-    procedure :: resume
-    procedure :: move_to
-    procedure :: approach_limit
-    procedure :: target_at
-    procedure :: watch
-    procedure :: save
-    procedure :: save_stopped
-    procedure :: explain
-    procedure :: stop_short
-    procedure :: drop_helpers
-    procedure :: destroy
-    procedure, private :: take_value
-    procedure, private :: follow
-    procedure, private :: may_start_anew
-    procedure, private :: start_anew
-    procedure, private :: end_search
+    procedure :: set_up, start, resume, move_to, approach_limit, target_at, watch, save
+    procedure :: save_stopped, explain, stop_short, drop_helpers, destroy
+    procedure, private :: take_value, follow, may_start_anew, start_anew, end_search
   end type bearing_solution_type
 
 contains
@@ -202,10 +187,9 @@ contains
 
   !> Whether a point may be tried from nothing: its answer hangs on nothing but the point, and nothing tells why the path to
   !> it has ended.
-  function may_start_anew(self, report) result(may)
+  logical function may_start_anew(self, report) result(may)
     class(bearing_solution_type), intent(in) :: self !! the solution
     type(path_report_type), intent(in) :: report !! of the path
-    logical :: may
 
     may = .not. (report%converged() .or. report%has_cause())
     if (self%scene%sweep%parameter == sweep_keys .or. .not. may) return
@@ -399,9 +383,8 @@ contains
   end function thinnest_film
 
   !> Whether the edges of the film do not deflect: they are at ambient pressure.
-  pure function has_stiff_edges(scene) result(has)
+  pure logical function has_stiff_edges(scene) result(has)
     type(scene_type), intent(in) :: scene
-    logical :: has
 
     has = .false.
     if (scene%model%foil /= foil_elastic_foundation) return

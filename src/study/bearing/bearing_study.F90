@@ -118,9 +118,8 @@ contains
   end subroutine find_answers
 
   !> The scene's own point.
-  function first_point(self) result(point)
+  integer function first_point(self) result(point)
     class(bearing_study_type), intent(in) :: self !! the study, with its scene
-    integer :: point
     point = 0
   end function first_point
 

@@ -178,7 +178,6 @@ contains
   pure function swept(scene) result(words)
     type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: words
-
     words = sweep_name(scene%sweep)//' ['//sweep_unit(scene%sweep)//']'
   end function swept
 
@@ -192,10 +191,9 @@ contains
   end function column_name
 
   !> Largest of the vector's other component, in the table's unit; zero where there is none.
-  function size_beside(column, history) result(largest)
+  real(wp) function size_beside(column, history) result(largest)
     type(column_type), intent(in) :: column !! of the table
     type(history_row_type), intent(in) :: history(:) !! points of the sweep
-    real(wp) :: largest
 
     largest = 0.0_wp
     if (column%beside == '') return

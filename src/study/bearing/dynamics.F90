@@ -462,9 +462,8 @@ contains
   end function state_words
 
   !> Damping over critical damping.
-  elemental function damping_ratio(mode) result(ratio)
+  elemental real(wp) function damping_ratio(mode) result(ratio)
     type(rotor_mode_type), intent(in) :: mode
-    real(wp) :: ratio
     ratio = -real(mode%rate, wp)/abs(mode%rate)
   end function damping_ratio
 

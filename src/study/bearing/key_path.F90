@@ -171,10 +171,9 @@ contains
   end function touches
 
   !> The value at a path parameter; the last one to the last digit.
-  pure function value_at(from, to, at) result(value)
+  pure real(wp) function value_at(from, to, at) result(value)
     real(wp), intent(in) :: from, to !! [the sweep's unit]
     real(wp), intent(in) :: at       !! path parameter [1]
-    real(wp) :: value
 
     value = from + at*(to - from)
     if (at >= 1.0_wp) value = to
@@ -337,11 +336,9 @@ contains
   end function place_of
 
   !> Whether the shaft or the free edge is far from where it was.
-  function has_moved(here, bearing) result(moved)
+  logical function has_moved(here, bearing) result(moved)
     type(carried_type), intent(in) :: here
     type(bearing_system_type), intent(in) :: bearing
-    logical :: moved
-
     moved = any(abs(place_of(bearing) - here%place) > longest_move*bearing%clearance)
   end function has_moved
 end module gfb_key_path

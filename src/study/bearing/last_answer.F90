@@ -17,9 +17,7 @@ module gfb_last_answer
     type(saved_state_type), private :: state
     type(contact_point_type), allocatable, private :: contact(:) !! of this rank
   contains
-    procedure :: save
-    procedure :: restore
-    procedure :: destroy
+    procedure :: save, restore, destroy
   end type last_answer_type
 
 contains

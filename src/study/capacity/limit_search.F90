@@ -39,14 +39,7 @@ module gfb_limit_search
     real(wp) :: length = 0.0_wp       !! of the bearing [m]
     real(wp) :: diameter = 0.0_wp     !! [m]
   contains
-    procedure :: value_at
-    procedure :: point_with
-    procedure :: reserve
-    procedure :: next_value
-    procedure :: is_of_film
-    procedure :: results
-    procedure :: words
-    procedure :: never_within
+    procedure :: value_at, point_with, reserve, next_value, is_of_film, results, words, never_within
     procedure, private :: coefficient
   end type limit_type
 
@@ -81,9 +74,8 @@ contains
   end function limit_of
 
   !> Whether it is the film that tells, and not the asperities.
-  elemental function is_of_film(self) result(is)
+  elemental logical function is_of_film(self) result(is)
     class(limit_type), intent(in) :: self !! the limit
-    logical :: is
     is = self%question /= analysis_lift_off
   end function is_of_film
 
@@ -142,11 +134,10 @@ contains
 
   !> The value to try next: a larger load or tilt or a lower speed while there is reserve; from
   !> beyond the limit a smaller load, a higher speed, no tilt.
-  pure function next_value(self, value, left) result(next)
+  pure real(wp) function next_value(self, value, left) result(next)
     class(limit_type), intent(in) :: self !! the limit
     real(wp), intent(in) :: value !! load [N], speed [rad/s] or tilt [rad]
     real(wp), intent(in) :: left  !! reserve there [1]
-    real(wp) :: next
     real(wp) :: tilt
 
     select case (self%question)
@@ -194,10 +185,9 @@ contains
   end function coefficient
 
   !> Part of the load that the asperities carry [1].
-  pure function contact_part(answer, point) result(part)
+  pure real(wp) function contact_part(answer, point) result(part)
     type(bearing_answer_type), intent(in) :: answer
     type(operating_point_type), intent(in) :: point !! with the load
-    real(wp) :: part
     part = norm2(answer%solid_force(:2))/norm2(point%load(:2))
   end function contact_part
 
@@ -285,7 +275,6 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! at the limit; where no path leads back, at its last answer
     type(newton_type), intent(inout) :: newton !! its solver
     type(path_report_type) :: report
-
     call follow_path(bearing, newton, target, 1.0_wp, path, report)
   end subroutine leave_limit
 

@@ -256,9 +256,8 @@ contains
   end subroutine discard_modes
 
   !> Size of the lowest eigenvalue: that of a free plate as long as the mesh [1/s2].
-  function plate_eigenvalue(component) result(eigenvalue)
+  real(wp) function plate_eigenvalue(component) result(eigenvalue)
     type(foil_structure_type), intent(in) :: component
-    real(wp) :: eigenvalue
     real(wp) :: length, ends(4)
 
     associate (x => component%mesh%position(1, :), z => component%mesh%position(3, :), foil => component%section)

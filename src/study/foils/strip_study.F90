@@ -71,10 +71,7 @@ module gfb_strip_study
     procedure :: write => write_study
     procedure :: left_out => strip_left_out
     procedure :: discard => discard_strip
-    procedure, private :: save
-    procedure, private :: restore
-    procedure, private :: visit
-    procedure, private :: explain
+    procedure, private :: save, restore, visit, explain
   end type strip_study_type
 
 contains
@@ -164,7 +161,6 @@ contains
   subroutine save_step(self, point)
     class(strip_study_type), target, intent(inout) :: self !! the load steps
     integer, intent(in) :: point !! number of the step
-
     if (self%context%restart%is_due(point)) call self%save()
   end subroutine save_step
 
@@ -237,9 +233,8 @@ contains
   end subroutine explain
 
   !> Share of the full load at a step.
-  pure function load_factor(step, up, down) result(factor)
+  pure real(wp) function load_factor(step, up, down) result(factor)
     integer, intent(in) :: step, up, down
-    real(wp) :: factor
 
     if (step <= up) then
       factor = real(step, wp)/real(up, wp)
@@ -249,9 +244,8 @@ contains
   end function load_factor
 
   !> Full force on all crests where it is given [N].
-  function full_force(scene) result(force)
+  real(wp) function full_force(scene) result(force)
     type(scene_type), intent(in) :: scene
-    real(wp) :: force
 
     associate (foil => scene%bump_foil, load => scene%strip_load)
       if (load%kind == load_plates) then

@@ -317,8 +317,7 @@ contains
     integer, intent(out) :: status !! exit status of the program
     class(bearing_study_type), allocatable, target :: study
     type(run_context_type) :: own
-    type(bearing_block_type), allocatable :: mine
-    type(bearing_block_type), allocatable :: blocks(:)
+    type(bearing_block_type), allocatable :: mine, blocks(:)
     type(error_type), allocatable :: error
     real(wp) :: memory(1)
     integer :: writer, ends(2)

@@ -43,15 +43,7 @@ module gfb_pool
     integer, private :: window = 0
   contains
     procedure :: point_done => count_point
-    procedure :: report
-    procedure :: next_task
-    procedure :: gather_tasks
-    procedure :: gather
-    procedure :: begin_log
-    procedure :: show
-    procedure :: origin
-    procedure :: largest
-    procedure :: total_of
+    procedure :: report, next_task, gather_tasks, gather, begin_log, show, origin, largest, total_of
   end type pool_type
 
 contains
@@ -112,10 +104,9 @@ contains
   end subroutine stop_pool
 
   !> Rank, in the job, that leads a group.
-  pure function first_rank(pool, group) result(rank)
+  pure integer function first_rank(pool, group) result(rank)
     type(pool_type), intent(in) :: pool
     integer, intent(in) :: group !! from 1
-    integer :: rank
     integer :: ends(2)
 
     ends = block_ends(pool%ranks, pool%groups, group)
@@ -229,8 +220,7 @@ contains
     type(archive_type), allocatable, intent(out) :: all(:) !! one a group, to restore; none in the other groups
     real(wp), allocatable :: numbers(:)
     character(len=:), allocatable :: words
-    integer :: other, length(2), ierr
-    integer :: status(MPI_STATUS_SIZE)
+    integer :: other, length(2), ierr, status(MPI_STATUS_SIZE)
 
     allocate (all(merge(self%groups, 0, self%group == group)))
     numbers = mine%numbers()
@@ -338,8 +328,7 @@ contains
   function largest(self, number)
     class(pool_type), intent(in) :: self !! the pool
     integer, intent(in) :: number !! this rank's
-    integer :: largest
-    integer :: ierr
+    integer :: largest, ierr
     call MPI_Allreduce(number, largest, 1, MPI_INTEGER, MPI_MAX, MPI_COMM_WORLD, ierr)
   end function largest
 

@@ -86,12 +86,7 @@ module gfb_periodic
     procedure :: run => run_periodic
     procedure :: results
     procedure :: add_arrays => add_periodic_arrays
-    procedure, private :: begin_forced
-    procedure, private :: begin_free
-    procedure, private :: follow
-    procedure, private :: keep_orbit
-    procedure, private :: phase
-    procedure, private :: turn_way
+    procedure, private :: begin_forced, begin_free, follow, keep_orbit, phase, turn_way
   end type periodic_type
 
 contains
@@ -165,7 +160,6 @@ contains
     real(wp), intent(in) :: x(:) !! any point [1]
     real(wp), intent(in) :: parameter !! as points have it [1]
     character(len=:), allocatable :: words
-
     words = value_words(map, [x(:size(x) - 1), parameter])
   end function words_at
 
@@ -306,11 +300,10 @@ contains
   end subroutine run_periodic
 
   !> The first forced orbit: some periods from rest, then Newton's method.
-  function begin_forced(self, scene, context) result(found)
+  logical function begin_forced(self, scene, context) result(found)
     class(periodic_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
-    logical :: found
     type(floquet_type) :: floquet
     type(condition_type) :: condition
     real(wp) :: y(size(self%x)), none(size(self%x))
@@ -337,11 +330,10 @@ contains
   end function begin_forced
 
   !> The first limit cycle: a small one along the mode at the onset of whirl.
-  function begin_free(self, scene, context) result(found)
+  logical function begin_free(self, scene, context) result(found)
     class(periodic_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context
-    logical :: found
     type(shaft_drive_type) :: drive
     type(floquet_type) :: floquet
     type(condition_type) :: condition
@@ -475,10 +467,9 @@ contains
   end subroutine follow
 
   !> Whether an orbit that was found is that of the branch: near to where it was looked for.
-  function is_near(self, x, taken) result(near)
+  logical function is_near(self, x, taken) result(near)
     class(periodic_type), intent(inout) :: self
     real(wp), intent(in) :: x(:), taken
-    logical :: near
     real(wp) :: off(size(x))
 
     off = x - self%x - taken*self%way
@@ -487,9 +478,8 @@ contains
   end function is_near
 
   !> Whether a limit cycle is next to an equilibrium again.
-  function is_small(self) result(small)
+  logical function is_small(self) result(small)
     class(periodic_type), intent(in) :: self
-    logical :: small
     real(wp), parameter :: share = 0.3_wp !! of the first one
 
     small = .false.
@@ -500,13 +490,12 @@ contains
   end function is_small
 
   !> Learns the map at an orbit that was found, and keeps the orbit; `.false.` where the map fails beside it.
-  function keep_orbit(self, scene, context, y, iterations) result(done)
+  logical function keep_orbit(self, scene, context, y, iterations) result(done)
     class(periodic_type), intent(inout) :: self !! at the orbit
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     real(wp), intent(in) :: y(:) !! what the orbit is mapped to [1]
     integer, intent(in) :: iterations !! that found it
-    logical :: done
     type(orbit_type) :: orbit
     type(floquet_type) :: floquet
     real(wp) :: gap

@@ -87,9 +87,8 @@ contains
   end subroutine show_loop_note
 
   !> The next power of ten.
-  pure function power_of_ten(number) result(round)
+  pure real(wp) function power_of_ten(number) result(round)
     real(wp), intent(in) :: number !! positive
-    real(wp) :: round
     round = 10.0_wp**ceiling(log10(number))
   end function power_of_ten
 

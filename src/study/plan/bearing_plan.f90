@@ -71,11 +71,10 @@ contains
   end subroutine show_numbers
 
   !> Bearing number 6 mu Omega / p_a (R / C)^2 [1].
-  elemental function bearing_number(bearing, gas, speed_rpm) result(number)
+  elemental real(wp) function bearing_number(bearing, gas, speed_rpm) result(number)
     type(bearing_case_type), intent(in) :: bearing !! the pad
     type(gas_case_type), intent(in) :: gas !! its gas
     real(wp), intent(in) :: speed_rpm !! of the shaft [rpm]
-    real(wp) :: number
 
     number = 6.0_wp*gas%viscosity*angular_speed(speed_rpm)/gas%ambient_pressure* &
              (bearing%radius/bearing%clearance)**2
@@ -149,9 +148,8 @@ contains
   end subroutine plan_bearing
 
   !> Rows of nodes in the part of the width that is solved.
-  pure function solved_rows(plan) result(rows)
+  pure integer function solved_rows(plan) result(rows)
     type(bearing_plan_type), intent(in) :: plan
-    integer :: rows
     rows = plan%order*merge(plan%axial/2, plan%axial, plan%half) + 1
   end function solved_rows
 

@@ -115,9 +115,8 @@ contains
   end subroutine show_strips
 
   !> Whether anything rubs.
-  pure function has_friction(scene) result(friction)
+  pure logical function has_friction(scene) result(friction)
     type(scene_type), intent(in) :: scene !! of a strip
-    logical :: friction
 
     associate (contact => scene%contact)
       friction = contact%friction_top > 0.0_wp

@@ -7,8 +7,7 @@
 module gfb_memory_check
   use gfb_kinds, only: wp
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_mesh_case, only: linear_solver_direct, linear_solver_out_of_core, &
-                           linear_solver_iterative
+  use gfb_mesh_case, only: linear_solver_direct, linear_solver_out_of_core, linear_solver_iterative
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
@@ -33,11 +32,9 @@ contains
 
   !> Entries of a symmetric matrix' factors for each unknown of shells on a grid of nodes:
   !> dissection cuts along the shorter side.
-  pure function factor_entries(stations, rows) result(entries)
+  pure real(wp) function factor_entries(stations, rows) result(entries)
     integer, intent(in) :: stations, rows !! of nodes
-    real(wp) :: entries
     real(wp), parameter :: a_doubling = 32.0_wp, narrow = -43.0_wp, least = 30.0_wp
-
     entries = max(least, a_doubling*log(real(max(2, min(stations, rows)), wp))/log(2.0_wp) + narrow)
   end function factor_entries
 
@@ -49,8 +46,7 @@ contains
     logical, intent(in) :: reduced           !! bumps are condensed
     logical, intent(in) :: friction          !! the matrix is not symmetric
     integer, intent(in) :: linear_solver     !! `linear_solver_direct`, ...
-    real(wp) :: bytes
-    real(wp) :: entries, line
+    real(wp) :: bytes, entries, line
 
     if (reduced) then
       line = real(node_unknowns*rows, wp)
@@ -73,11 +69,10 @@ contains
   end function strip_memory
 
   !> Modes of a strip: all unknowns with a mass, and the strip of super-elements beside them [B].
-  pure function modes_memory(unknowns, retained, stations, rows) result(bytes)
+  pure real(wp) function modes_memory(unknowns, retained, stations, rows) result(bytes)
     real(wp), intent(in) :: unknowns !! of the equations [1]
     real(wp), intent(in) :: retained      !! of them, where bumps are super-elements [1]
     integer, intent(in) :: stations, rows !! of nodes
-    real(wp) :: bytes
     real(wp), parameter :: a_mass = 540.0_wp       !! of an unknown [B]
     real(wp), parameter :: two_matrices = 60.0_wp !! of an unknown times those of a line [B]
 
@@ -86,9 +81,8 @@ contains
   end function modes_memory
 
   !> A film without shells [B].
-  pure function film_memory(nodes) result(bytes)
+  pure real(wp) function film_memory(nodes) result(bytes)
     integer, intent(in) :: nodes !! that are solved
-    real(wp) :: bytes
     bytes = real(nodes, wp)*a_film_node
   end function film_memory
 
@@ -121,10 +115,9 @@ contains
   end function bearing_memory
 
   !> All ranks together, with what each process takes by itself [B].
-  pure function rank_memory(bytes, ranks) result(total)
+  pure real(wp) function rank_memory(bytes, ranks) result(total)
     real(wp), intent(in) :: bytes !! of the equations [B]
     integer, intent(in) :: ranks !! of the job
-    real(wp) :: total
     real(wp), parameter :: a_cut = 0.1_wp !! a further rank adds for ghosts, messages, whole tables
     total = bytes*(1.0_wp + a_cut*real(min(ranks, 8) - 1, wp)) + a_rank*real(ranks, wp)
   end function rank_memory
@@ -186,22 +179,19 @@ contains
   end function remedies
 
   !> Whether some machine of the job has less memory than its ranks need.
-  function is_too_much(bytes) result(too_much)
+  logical function is_too_much(bytes) result(too_much)
     real(wp), intent(in) :: bytes !! of the equations [B]
-    logical :: too_much
     too_much = node_need(bytes) > node_room()
   end function is_too_much
 
   !> What the ranks of the fullest machine need [B].
-  function node_need(bytes) result(need)
+  real(wp) function node_need(bytes) result(need)
     real(wp), intent(in) :: bytes !! of the equations [B]
-    real(wp) :: need
     need = rank_memory(bytes, rank_count())*real(ranks_on_node(), wp)/real(rank_count(), wp)
   end function node_need
 
   !> What the machine with the least memory has [B].
-  function node_room() result(room)
-    real(wp) :: room
+  real(wp) function node_room() result(room)
     room = -maxval(largest_over_ranks([-min(available_memory(), unknown_memory)]))
   end function node_room
 

@@ -49,8 +49,7 @@ module gfb_sample
   contains
     procedure :: prepare => prepare_sample
     procedure :: solve => solve_all
-    procedure :: solve_member
-    procedure :: judge
+    procedure :: solve_member, judge
     procedure :: write => write_study
     procedure :: left_out => left_out_of_members
     procedure :: discard => discard_sample
@@ -59,9 +58,8 @@ module gfb_sample
 contains
 
   !> Mean of some numbers [their unit].
-  pure function mean_of(numbers) result(mean)
+  pure real(wp) function mean_of(numbers) result(mean)
     real(wp), intent(in) :: numbers(:) !! [any unit] one at least
-    real(wp) :: mean
 
     mean = sum(numbers)/size(numbers)
     mean = mean + sum(numbers - mean)/size(numbers) ! what the first sum rounded
@@ -70,19 +68,16 @@ contains
   !> Standard deviation of the law from which some numbers are [their unit].
   !>
   !> $$ s^2 = \frac{1}{n - 1} \sum_i (x_i - \bar x)^2 $$
-  pure function deviation_of(numbers) result(deviation)
+  pure real(wp) function deviation_of(numbers) result(deviation)
     real(wp), intent(in) :: numbers(:) !! [any unit] two at least
-    real(wp) :: deviation
-
     deviation = norm2(numbers - mean_of(numbers))/sqrt(real(size(numbers) - 1, wp))
   end function deviation_of
 
   !> The number below which a part of some numbers lies, straight between them: the smallest for 0,
   !> the largest for 1 [their unit].
-  pure function quantile_of(numbers, part) result(quantile)
+  pure real(wp) function quantile_of(numbers, part) result(quantile)
     real(wp), intent(in) :: numbers(:) !! [any unit] one at least
     real(wp), intent(in) :: part       !! between 0 and 1 [1]
-    real(wp) :: quantile
     real(wp) :: sorted(size(numbers)), place
     integer :: below
 
@@ -247,7 +242,6 @@ contains
   pure function two_digits(number) result(words)
     integer, intent(in) :: number
     character(len=2) :: words
-
     write (words, '(i2.2)') number
   end function two_digits
 
@@ -420,14 +414,12 @@ contains
     class(sample_type), intent(in) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     character(len=:), allocatable :: words
-
     words = self%plan%left_out(scene)
   end function left_out_of_members
 
   !> Every member was discarded when it had its answer.
   subroutine discard_sample(self)
     class(sample_type), intent(inout) :: self !! the study
-
     if (allocated(self%plan)) deallocate (self%plan)
   end subroutine discard_sample
 end module gfb_sample

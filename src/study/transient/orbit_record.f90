@@ -21,8 +21,7 @@ module gfb_orbit_record
     real(wp), allocatable :: motion(:, :) !! (what moves, steps) [m], [rad]
   contains
     procedure :: see => see_step
-    procedure :: turn_began
-    procedure :: extents
+    procedure :: turn_began, extents
     procedure :: visit => visit_orbit
   end type orbit_record_type
 

@@ -102,13 +102,8 @@ module gfb_transient
     procedure :: run => run_transient
     procedure :: results
     procedure :: add_arrays => add_transient_arrays
-    procedure, private :: look_for_limits
-    procedure, private :: look_for_steady_orbit
-    procedure, private :: change_of_orbit
-    procedure, private :: judge_end
-    procedure, private :: save
-    procedure, private :: restore
-    procedure, private :: visit
+    procedure, private :: look_for_limits, look_for_steady_orbit, change_of_orbit, judge_end, save
+    procedure, private :: restore, visit
   end type transient_type
 
 contains
@@ -365,9 +360,8 @@ contains
     call add_series_step(series, 'time', 's', march%time, grids)
   contains
     !> Chosen times until this one.
-    pure function passed(time) result(times)
+    pure integer function passed(time) result(times)
       real(wp), intent(in) :: time !! [s]
-      integer :: times
       real(wp) :: intervals
 
       intervals = (time - scene%transient%field_start)/scene%transient%field_interval
@@ -524,7 +518,6 @@ contains
   function place_in_time(march) result(words)
     type(march_type), intent(in) :: march
     character(len=:), allocatable :: words
-
     words = 'time '//text(march%time, 6)//' s, turn '//text(march%turns(), 5)
   end function place_in_time
 
@@ -561,9 +554,8 @@ contains
   end subroutine look_for_steady_orbit
 
   !> By how much the last two turns differ [m].
-  function change_of_orbit(self) result(change)
+  real(wp) function change_of_orbit(self) result(change)
     class(transient_type), intent(in) :: self
-    real(wp) :: change
     real(wp), allocatable :: now(:), before(:)
 
     associate (turn => self%march%turns(), orbit => self%history%orbit)
