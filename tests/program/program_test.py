@@ -33,7 +33,7 @@ LONG = """&scene analysis='transient' /
 &gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /
 &operation speed_rpm=30000.0 load=-60.0, 0.0 /
 &rotor mass=1.5 /
-&transient duration=0.25 output_every=1000 /
+&transient duration=1.0 output_every=1000 /
 &unbalance unbalance=1.5e-6 /
 &foil_damping foundation_damping=3.0e5 /
 &model foil='elastic_foundation' foundation_stiffness=4.8243e9 /
@@ -180,7 +180,7 @@ def check_waiting(checks, folder):
     now and then, with --quiet none. Most of the time it is stopped: its clock goes on, and it costs
     nothing."""
     (folder/"long.nml").write_text(LONG, encoding="utf-8")
-    signals = (1.5, signal.SIGSTOP), (10.0, signal.SIGCONT), (13.0, signal.SIGTERM)
+    signals = (2.5, signal.SIGSTOP), (10.0, signal.SIGCONT), (13.0, signal.SIGTERM)
     runs = (("shown",), True), (("quiet", "--quiet"), True), (("filed",), False)
     with concurrent.futures.ThreadPoolExecutor() as pool:
         shown, quiet, filed = pool.map(lambda one: on_terminal(
