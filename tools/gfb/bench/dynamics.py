@@ -1,31 +1,51 @@
-"""Stiffness and damping of a foil bearing: what a frequency costs, against one factorization of the static bearing.
+"""Stiffness and damping of a foil bearing: what few and many frequencies cost, against factorizations one by one.
 
-The bearing of inputs/gu2020_bearing.nml under 100 N on the default meshes, aligned, all 4 x 4 coefficients; the whole
-width is that of a shaft that tilts. A frequency's CPU time is what a run of more frequencies takes longer than one of
-two, over their number; so the equilibrium and the search for the critical mass are not in it. The static
-factorization, numbers only, is the mean of a few other loads', for a cold start has coarser meshes.
+The bearing of inputs/gu2020_bearing.nml under 100 N on the default meshes, aligned, all 4 x 4 coefficients with the critical
+mass, from 0.1 to 2 times the speed; the whole width is that of a shaft that tilts. Up to three frequencies are solved
+one by one, more by a function through samples; six of 30 are checked against runs of three. CPU times and factorizations are
+those of a run less those of the equilibrium alone.
 """
 
 import statistics
 import sys
 import tempfile
 
-from gfb.bench.bearing import CASE, FACTORIZATION, SWEEP, calls, time_in
-from gfb.run import run_case, run_logged
-from gfb.tables import markdown_table, plain_table
-from gfb.tool import stop
+import numpy
 
-MODELS = {  # foil, half_width, frequencies beyond two
-    "elastic foundation": ("elastic_foundation", "auto", 28),
-    "beams": ("beam", "auto", 28),
-    "shells, half width": ("shell", "auto", 8),
-    "shells, whole width": ("shell", "no", 3),
+from gfb.bench.bearing import CASE
+from gfb.build import version_of
+from gfb.results import open_results
+from gfb.run import run_case
+from gfb.tables import markdown_table, plain_table
+from gfb.tool import MEASURED, stop
+
+DENSITY = {"density": 8200.0}  # of both foils [kg/m^3]
+MODELS = {  # foil, half_width, with its mass
+    "elastic foundation": ("elastic_foundation", "auto", False),
+    "beams": ("beam", "auto", False),
+    "beams with mass": ("beam", "auto", True),
+    "shells, half width": ("shell", "auto", False),
+    "shells with mass": ("shell", "auto", True),
+    "shells, whole width": ("shell", "no", False),
 }
-TWO = (0.25, 0.5)  # over the speed
-LOADS = (100.0, 110.0, 120.0)  # [N]
-MANY = 30
-AIMS = {"beams": 5.0, "shells, half width": 60.0}  # CPU time of so many frequencies [s]
-MOST_FACTORIZATIONS = 6.0  # static ones a frequency, shells on half the width
+ENDS = (0.1, 2.0)  # over the speed
+NUMBERS = (3, 30, 300)
+CHECKED = ((2, 7, 12), (17, 20, 26))  # places among 30
+HEAD = """# What frequencies cost
+
+```
+tools/bench dynamics --docs --repetitions {repetitions}
+```
+
+The bearing of [inputs/gu2020_bearing.nml](../../inputs/gu2020_bearing.nml) under 100 N on the default meshes: all 4 x 4
+coefficients at so many frequencies from 0.1 to 2 times the speed, and the critical mass. CPU times and factorizations are those of a run
+less those of the equilibrium alone, with files. On half the width one is for translations and one for tilts. *off*: largest
+difference of six of the 30 frequencies from factorizations at each, over the largest entry of like coordinates.
+
+{table}
+{program}.
+
+"""
 
 
 def add_options(parser):
@@ -34,77 +54,81 @@ def add_options(parser):
                         help="runs of each model; default: %(default)s")
     parser.add_argument("--models", metavar="N", type=int, default=len(MODELS), choices=range(1, len(MODELS) + 1),
                         help="only the first N of the models")
+    parser.add_argument("--docs", action="store_true", help="write the table of docs/measured/bench_dynamics.md")
 
 
 def run(options):
     """Measures; returns the table and leaves it in Markdown."""
     if options.repetitions < 1:
         stop("--repetitions: at least 1")
-    measured = {model: [] for model in list(MODELS)[:options.models]}
     with tempfile.TemporaryDirectory() as folder:
-        for _ in range(options.repetitions):
-            for model, runs in measured.items():
-                print(f"{model} ...", file=sys.stderr, flush=True)
-                runs.append(measure(options.gfb, model, folder))
-    table = cost_table(measured)
+        rows = [measure(options, model, folder) for model in list(MODELS)[:options.models]]
+    heads = ["vibrations", "unknowns", "equilibrium, CPU [s]"]
+    for number in NUMBERS:
+        heads += [f"{number} frequencies, CPU [s]", "factorizations"]
+    table = ("CPU times and factorizations beyond the equilibrium's", [*heads, "off", "memory [MB]"], rows)
     (options.output/"dynamics.md").write_text(markdown_table(*table), encoding="utf-8")
-    return plain_table(*table) + notes(measured)
+    if options.docs:
+        write_page(table, options)
+    return plain_table(*table)
+
+
+def write_page(table, options):
+    """The table into the page, whose words after it stay."""
+    path = MEASURED/"bench_dynamics.md"
+    words = path.read_text(encoding="utf-8").partition("<!-- words -->\n")[2]
+    head = HEAD.format(repetitions=options.repetitions, table=markdown_table(*table), program=version_of(options.gfb))
+    path.write_text(head + "<!-- words -->\n" + words, encoding="utf-8")
 
 
 def groups_of(model, ratios):
     """The case file's groups; without ratios the equilibrium alone."""
-    foil, half_width, _ = MODELS[model]
+    foil, half_width, mass = MODELS[model]
     groups = {**CASE, "model": {"foil": foil, "half_width": half_width}}
     if foil == "elastic_foundation":
         for name in ("top_foil", "bump_foil", "contact"):
             del groups[name]
         groups["model"] |= {"foundation_stiffness": 4.8e9, "foundation_pressure": "axial_mean"}
+    if mass:
+        groups |= {name: groups[name] | DENSITY for name in ("top_foil", "bump_foil")}
     if ratios:
         groups |= {"scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequency_ratios": ratios}}
+        if mass:
+            groups["foil_damping"] = {"foil_mass": "on"}
     return groups
 
 
-def measure(gfb, model, folder):
-    """CPU time of a frequency and of a static factorization [s], memory [B], unknowns."""
-    static = run_case(gfb, groups_of(model, ()), folder, "static")
-    loads = {"sweep": {"parameter": "load", "values": LOADS}}
-    swept, stages = run_logged(gfb, groups_of(model, ()) | loads, folder, "loads")
-    share = swept.cpu/sum(time_in(stages, stage, ("summary",)) for stage in stages)
-    factorization = share*time_in(stages, SWEEP, FACTORIZATION)/max(1.0, calls(stages, SWEEP, FACTORIZATION))
-    more = MODELS[model][2]
-    few = run_case(gfb, groups_of(model, TWO), folder, "few")
-    many = run_case(gfb, groups_of(model, TWO + tuple(0.6 + 0.05*i for i in range(more))), folder, "many")
-    return {"frequency": (many.cpu - few.cpu)/more, "factorization": factorization, "run": few.cpu,
-            "static": static.cpu, "unknowns": static["unknowns"], "memory": many["peak_memory"],
-            "static memory": static["peak_memory"]}
+def measure(options, model, folder):
+    """A row of the table; times are medians."""
+    print(f"{model} ...", file=sys.stderr, flush=True)
+    rounds = []
+    for _ in range(options.repetitions):
+        rounds.append([run_case(options.gfb, groups_of(model, ()), folder, "static")])
+        for number in NUMBERS:
+            ratios = tuple(numpy.linspace(*ENDS, number).tolist())
+            rounds[-1].append(run_case(options.gfb, groups_of(model, ratios), folder, f"of_{number}"))
+    static, *runs = rounds[0]
+    row = [model, f"{static['unknowns']:,.0f}", f"{statistics.median(one[0].cpu for one in rounds):.2f}"]
+    for i, answer in enumerate(runs, 1):
+        row += [f"{statistics.median(one[i].cpu - one[0].cpu for one in rounds):.2f}",
+                f"{answer['factorizations'] - static['factorizations']:.0f}"]
+    return [*row, f"{difference(options, model, folder):.0e}", f"{runs[1]['peak_memory']/1e6:.0f}"]
 
 
-def median_of(runs, name):
-    """Median over the runs."""
-    return statistics.median(one[name] for one in runs)
+def difference(options, model, folder):
+    """Largest difference of the checked frequencies from those that are solved one by one."""
+    ratios = numpy.linspace(*ENDS, 30)
+    many, largest = coefficients(folder, "of_30"), 0.0
+    for places in CHECKED:
+        run_case(options.gfb, groups_of(model, tuple(ratios[list(places)].tolist())), folder, "direct")
+        for one, other in zip(coefficients(folder, "direct"), many[list(places)]):
+            for part in (slice(0, 2), slice(2, 4)):
+                largest = max(largest, abs(other[part, part] - one[part, part]).max()/abs(one[part, part]).max())
+    return largest
 
 
-def ratio(runs):
-    """Static factorizations a frequency, median of the rounds."""
-    return statistics.median(one["frequency"]/one["factorization"] for one in runs)
-
-
-def cost_table(measured):
-    """Title, heads and rows."""
-    rows = [[model, f"{runs[0]['unknowns']:,.0f}", f"{median_of(runs, 'static'):.2f}",
-             f"{1e3*median_of(runs, 'factorization'):.1f}", f"{median_of(runs, 'frequency'):.3f}", f"{ratio(runs):.1f}",
-             f"{MANY*median_of(runs, 'frequency'):.1f}", f"{median_of(runs, 'static memory')/1e6:.0f}",
-             f"{median_of(runs, 'memory')/1e6:.0f}"] for model, runs in measured.items()]
-    heads = ["vibrations", "unknowns", "equilibrium, CPU [s]", "one factorization [ms]", "a frequency, CPU [s]",
-             "factorizations", f"{MANY} frequencies, CPU [s]", "memory of the equilibrium [MB]", "with vibrations [MB]"]
-    return ("CPU times; factorizations: a frequency over one of the static bearing", heads, rows)
-
-
-def notes(measured):
-    """The models against their aims."""
-    lines = [f"{model}: {MANY*median_of(measured[model], 'frequency'):.1f} s for {MANY} frequencies (aim: {aim:g} s)\n"
-             for model, aim in AIMS.items() if model in measured]
-    if "shells, half width" in measured:
-        lines.append(f"shells, half width: {ratio(measured['shells, half width']):.1f} static factorizations a frequency "
-                     f"(aim: {MOST_FACTORIZATIONS:g})\n")
-    return "\n" + "".join(lines)
+def coefficients(folder, name):
+    """K + i w C of a run, (frequencies, 4, 4)."""
+    with open_results(f"{folder}/{name}.h5") as file:
+        dynamics = file["dynamics"]
+        return dynamics["stiffness"][:] + 1j*dynamics["frequency"][:][:, None, None]*dynamics["damping"][:]
