@@ -90,6 +90,20 @@ class PythonTest(unittest.TestCase):
         self.assertTrue(first.equals(again))
         self.assertEqual(before, {path: path.stat().st_mtime_ns for path in self.folder.glob("*.summary")})
 
+    def test_study_starts_the_program_twice(self):
+        """One call checks all members, one computes those that are missing; members without an answer are told."""
+        counted, calls = self.folder/"counted", self.folder/"calls"
+        counted.write_text(f'#!/bin/sh\necho "$#" >> "{calls}"\nexec "{gfb.case.program()}" "$@"\n', encoding="utf-8")
+        counted.chmod(0o755)
+        case, values = gfb.Case(SMALL), {"bearing%clearance": [2.0e-5, 9.0e-4], "operation%speed_rpm": [2.0e4, 2.2e4]}
+        first = gfb.study(case, values, self.folder, gfb=counted)
+        self.assertEqual(len(calls.read_text(encoding="utf-8").split()), 2)
+        self.assertEqual(first.status.values.tolist(), [[0, 0], [2, 2]])
+        (self.folder/"study_0002.summary").unlink()
+        self.assertTrue(gfb.study(case, values, self.folder, gfb=counted).minimum_gap.equals(first.minimum_gap))
+        self.assertEqual(len(calls.read_text(encoding="utf-8").split()), 4)
+        self.assertEqual([path.name for path in self.folder.glob("*.batch*")], [])
+
     def test_what_is_no_result(self):
         (self.folder/"bad.h5").write_bytes(b"no HDF5")
         with self.assertRaises(Unreadable):

@@ -8,6 +8,7 @@ import itertools
 import os
 import pathlib
 import subprocess
+import tempfile
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -20,6 +21,8 @@ from gfb.results import read_summary
 
 MEMBER_NAME = "{study}_{number:04d}"
 DONE, WRONG_INPUT, NOT_CONVERGED = 0, 1, 2
+ENDINGS = {DONE: ".summary", NOT_CONVERGED: ".unconverged.summary"}
+BATCH = 50  # members that one call of the program computes: what is lost of them where it is killed is the one it is at
 
 
 class RunError(RuntimeError):
@@ -63,8 +66,7 @@ def run(case: Case | str | os.PathLike[str], folder: str | os.PathLike[str] = "r
     command = [program(gfb), *options, "--output", str(folder), "--", str(path)]
     if ranks > 1:
         command = [os.environ.get("GFB_MPIEXEC", "mpiexec"), "-n", str(ranks), *command]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
-                          env={"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **os.environ})
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, env=environment())
     if done.returncode == WRONG_INPUT:
         raise CaseError(done.stderr.strip())
     if done.returncode not in (DONE, NOT_CONVERGED):
@@ -86,31 +88,69 @@ def study(case: Case, values: Mapping[str, Sequence[Any]], folder: str | os.Path
         for key, value in zip(values, combination):
             one[key] = value
         cases.append(one)
-    for one in cases:
-        one.check(gfb=gfb)
-
-    def member(number: int) -> tuple[int, dict[str, Any], dict[str, str]]:
-        stem = folder/MEMBER_NAME.format(study=name, number=number + 1)
-        return find_member(cases[number], stem, gfb)
-
+    stems = [folder/MEMBER_NAME.format(study=name, number=number + 1) for number in range(len(cases))]
+    check_all(cases, gfb)
+    missing = [number for number, stem in enumerate(stems) if find_member(cases[number], stem) is None]
+    size = max(1, min(BATCH, -(-len(missing)//max(1, processes))))
+    batches = [missing[first:first + size] for first in range(0, len(missing), size)]
     with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
-        found = list(pool.map(member, range(len(cases))))
+        list(pool.map(lambda batch: run_batch([cases[number] for number in batch], [stems[number] for number in batch], gfb), batches))
+    found = [find_member(one, stem) or run_member(one, stem, gfb) for one, stem in zip(cases, stems)]
     return table(values, found)
 
 
-def find_member(case: Case, stem: pathlib.Path, gfb: str | os.PathLike[str] | None) -> tuple[int, dict[str, Any], dict[str, str]]:
-    """Status, summary and units of a member, computed where they are not there yet."""
+def check_all(cases: Sequence[Case], gfb: str | os.PathLike[str] | None) -> None:
+    """One call of the program for all; the first case that is wrong raises CaseError."""
+    with tempfile.TemporaryDirectory() as folder:
+        paths = [str(one.write(pathlib.Path(folder)/f"{number}.nml")) for number, one in enumerate(cases)]
+        right = all(call("--check", "--groups", "1", "--", *paths[first:first + BATCH], gfb=gfb).returncode == DONE
+                    for first in range(0, len(paths), BATCH))
+    for one in [] if right else cases:
+        one.check(gfb=gfb)
+
+
+def run_batch(cases: Sequence[Case], stems: Sequence[pathlib.Path], gfb: str | os.PathLike[str] | None) -> None:
+    """Runs members one after another in one call of the program, which starts once for all; what it leaves out is missing.
+    A member alone is no batch."""
+    if len(cases) < 2:
+        return
+    for one, stem in zip(cases, stems):
+        for ending in ENDINGS.values():
+            stem.with_name(stem.name + ending).unlink(missing_ok=True)
+        one.write(stem.with_name(stem.name + ".nml"))
+    side = f"{stems[0].name}.batch"
+    call("--quiet", "--groups", "1", "--name", side, "--output", stems[0].parent, "--",
+         *(stem.with_name(stem.name + ".nml") for stem in stems), gfb=gfb)
+    for ending in (".h5", ".summary"):
+        stems[0].with_name(side + ending).unlink(missing_ok=True)
+
+
+def call(*words: object, gfb: str | os.PathLike[str] | None) -> subprocess.CompletedProcess[str]:
+    """Calls the program on one thread."""
+    return subprocess.run([program(gfb), *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                          env=environment())
+
+
+def environment() -> dict[str, str]:
+    """One thread a process, where the user has said nothing else."""
+    return {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **os.environ}
+
+
+def find_member(case: Case, stem: pathlib.Path) -> tuple[int, dict[str, Any], dict[str, str]] | None:
+    """Status, summary and units of a member; None where it is not there."""
     path = stem.with_name(stem.name + ".nml")
-    summaries = {DONE: stem.with_name(stem.name + ".summary"), NOT_CONVERGED: stem.with_name(stem.name + ".unconverged.summary")}
-    known = path.exists() and path.read_text(encoding="utf-8") == str(case)
-    there = [status for status, file in summaries.items() if known and file.exists()]
-    if not there:
-        for file in summaries.values():
-            file.unlink(missing_ok=True)
-        there = [DONE if run(case, stem.parent, stem.name, gfb=gfb).converged else NOT_CONVERGED]
-    if there[0] != DONE:
-        return there[0], {}, {}
-    return DONE, *read_summary(summaries[DONE])
+    if not path.exists() or path.read_text(encoding="utf-8") != str(case):
+        return None
+    if (summary := stem.with_name(stem.name + ENDINGS[DONE])).exists():
+        return DONE, *read_summary(summary)
+    return (NOT_CONVERGED, {}, {}) if stem.with_name(stem.name + ENDINGS[NOT_CONVERGED]).exists() else None
+
+
+def run_member(case: Case, stem: pathlib.Path, gfb: str | os.PathLike[str] | None) -> tuple[int, dict[str, Any], dict[str, str]]:
+    """The same of a member that no batch has left behind; raises what is wrong with it."""
+    if not run(case, stem.parent, stem.name, gfb=gfb).converged:
+        return NOT_CONVERGED, {}, {}
+    return DONE, *read_summary(stem.with_name(stem.name + ENDINGS[DONE]))
 
 
 def table(values: Mapping[str, Sequence[Any]], found: Sequence[tuple[int, dict[str, Any], dict[str, str]]]) -> xarray.Dataset:
