@@ -59,8 +59,6 @@ module gfb_divided_bearing
     type(grid_series_type) :: series       !! film and foils at its points
   end type bearing_block_type
 
-  integer, parameter :: search = 13 !! frequencies that take as long as the search for the critical mass
-
 contains
 
   !> Saves or restores a block.
@@ -357,22 +355,17 @@ contains
     call study%discard()
   end subroutine run_divided_bearing
 
-  !> Numbers of the first and last value, or frequency, of a group; of these the first group has as many fewer as it
-  !> has more to do.
+  !> Numbers of the first and last value, or frequency, of a group.
   pure function ends_of(scene, groups, group) result(ends)
     type(scene_type), intent(in) :: scene
     integer, intent(in) :: groups, group !! of the job; from 1
-    integer :: ends(2), frequencies, of_first
+    integer :: ends(2)
 
     if (scene%sweep%present) then
       ends = block_ends(size(scene%sweep%values), groups, group)
-      return
+    else
+      ends = block_ends(size(scene%dynamics%frequencies), groups, group)
     end if
-    frequencies = size(scene%dynamics%frequencies) ! as many as groups at least
-    of_first = frequencies
-    if (groups > 1) of_first = max(1, (frequencies + search)/groups - search)
-    ends = [1, of_first]
-    if (group > 1) ends = of_first + block_ends(frequencies - of_first, groups - 1, group - 1)
   end function ends_of
 
   !> Which group has what.
