@@ -4,6 +4,7 @@ module gfb_provenance
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_c_library, only: host_name
+  use gfb_blas_kernel, only: kernel_name
   use gfb_petsc_session, only: petsc_version_text, rank_count
   implicit none (type, external)
   private
@@ -61,7 +62,7 @@ contains
       ' '//zone
   end function date_text
 
-  !> Name of the BLAS this process has loaded, as the system tells it.
+  !> Name of the BLAS this process has loaded, as the system tells it, and its kernel.
   function blas_in_use() result(name)
     character(len=:), allocatable :: name
     character(len=1024) :: line
@@ -85,5 +86,6 @@ contains
     else
       name = name(index(name, '/', back=.true.) + 1:)
     end if
+    if (kernel_name() /= '') name = name//', '//kernel_name()//' kernel'
   end function blas_in_use
 end module gfb_provenance
