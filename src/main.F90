@@ -3,6 +3,7 @@ program gfb
   use gfb_errors, only: error_type, status_machine
   use gfb_c_library, only: exit_with_status
   use gfb_machine_memory, only: look_for_room
+  use gfb_blas_kernel, only: choose_kernel
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: limit_time, stop_agreed, stop_status
   use gfb_pool, only: pool_type, start_pool, stop_pool
@@ -24,6 +25,7 @@ program gfb
 
   call read_command_line(line, error)
   call look_for_room()
+  call choose_kernel()
   call start_pool(line%groups, pool)
   call start_petsc()
   if (line%time_limit > 0) call limit_time(line%time_limit)

@@ -402,7 +402,7 @@ module gfb_result_table
     result_type('compiler', '', word, origin, 'compiler that built it'), &
     result_type('build', '', word, origin, 'kind of build'), &
     result_type('libraries', '', word, origin, 'versions of the solver libraries'), &
-    result_type('blas', '', word, origin, 'library of the dense kernels'), &
+    result_type('blas', '', word, origin, 'BLAS library, and its kernel where it is OpenBLAS'), &
     result_type('command', '', word, origin, 'command line', varies=.true.), &
     result_type('petsc_options', '', word, origin, 'options of PETSc that were given', &
       'options of PETSc from `PETSC_OPTIONS`, an options file or `--petsc`, where they can '// &

@@ -4,6 +4,7 @@ module gfb_provenance
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_c_library, only: host_name
+  use gfb_blas_kernel, only: kernel_name
   use gfb_petsc_session, only: petsc_version_text, rank_count
   implicit none (type, external)
   private
@@ -61,17 +62,19 @@ contains
       ' '//zone
   end function date_text
 
-  !> Name of the BLAS this process has loaded, as the system tells it.
+  !> Name of the BLAS this process has loaded, as the system tells it, and its kernel.
   function blas_in_use() result(name)
-    character(len=:), allocatable :: name
+    character(len=:), allocatable :: name, path
     character(len=1024) :: line
     integer :: unit, status
 
     name = 'unknown'
+    path = ''
     open (newunit=unit, file='/proc/self/maps', status='old', action='read', iostat=status)
     do while (status == 0)
       read (unit, '(a)', iostat=status) line
-      if (status /= 0 .or. index(line, 'libblas') + index(line, 'openblas') + index(line, 'libmkl') == 0) cycle
+      if (status == 0) path = trim(line(index(line, '/', back=.true.) + 1:)) ! the search for names costs more than reading
+      if (status /= 0 .or. index(path, 'libblas') + index(path, 'openblas') + index(path, 'libmkl') == 0) cycle
       name = trim(line(index(line, '/'):))
       if (index(line, 'openblas') > 0) exit
     end do
@@ -85,5 +88,6 @@ contains
     else
       name = name(index(name, '/', back=.true.) + 1:)
     end if
+    if (kernel_name() /= '') name = name//', '//kernel_name()//' kernel'
   end function blas_in_use
 end module gfb_provenance
