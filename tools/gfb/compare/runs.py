@@ -58,6 +58,7 @@ def tasks(small):
 def fingerprint(program):
     """What the bits of a program's answers depend on: itself, its libraries, and the processor, to which BLAS adapts."""
     known = hashlib.sha256(pathlib.Path(program).read_bytes())
+    known.update(os.environ.get("OPENBLAS_CORETYPE", "").encode())
     listed = subprocess.run(["ldd", program], capture_output=True, text=True, check=False).stdout
     for word in sorted(set(listed.split())):
         if word.startswith("/") and os.path.exists(word):
