@@ -25,7 +25,7 @@ program gfb
 
   call read_command_line(line, error)
   call look_for_room()
-  call choose_kernel()
+  if (line%version .or. .not. (line%informs() .or. line%check)) call choose_kernel()
   call start_pool(line%groups, pool)
   call start_petsc()
   if (line%time_limit > 0) call limit_time(line%time_limit)
