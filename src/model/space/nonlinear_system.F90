@@ -7,6 +7,7 @@ module gfb_nonlinear_system
   private
 
   integer, parameter, public :: contact_name = 3 !! numbers that name a contact
+  integer, parameter, public :: few_unknowns = 40000 !! of a matrix of low fill that each of several ranks factors whole
 
   !> Equations \( f(x) = 0 \) in scaled unknowns, with their exact derivative.
   type, abstract, public :: nonlinear_system_type

@@ -1,8 +1,9 @@
 #include "gfb_petsc.h"
 !> A linear solver that factors its matrix, and what the factors tell of it.
 !>
-!> KLU has the matrices of one rank whose factors stay sparse, MUMPS all others: of films on springs or beams KLU's factors
-!> take a third to two thirds of the time, since MUMPS is made for blocks that are dense.
+!> KLU has the matrices whose factors stay sparse, MUMPS all others: of films on springs or beams KLU's factors take a third
+!> to two thirds of the time, since MUMPS is made for blocks that are dense. On several ranks each makes KLU's factors of the
+!> whole matrix, where it is small: what MUMPS' ranks tell each other takes longer than these.
 !>
 !> PETSc does not factor again with what MUMPS failed on once: after a zero pivot it takes the next factors
 !> for made although MUMPS was not called, after any other failure it repeats the failure. So factors that
@@ -14,6 +15,7 @@ module gfb_direct_solver
   use gfb_text, only: text
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: rank_count
+  use gfb_nonlinear_system, only: few_unknowns
   implicit none (type)
   private
   public :: use_factors, make_factors, factor_matrix, factor_failure, failure_in_words, enlarge_workspace, drop_factors, &
@@ -54,13 +56,14 @@ module gfb_direct_solver
 contains
 
   !> Makes a linear solver factor its matrix and do nothing else.
-  subroutine use_factors(linear, prefix, symmetric, dense_rows, is_definite, low_fill)
+  subroutine use_factors(linear, prefix, symmetric, dense_rows, is_definite, low_fill, matrix)
     KSP, intent(in) :: linear              !! without a type yet
     character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
     logical, intent(in) :: symmetric       !! the matrix is
     logical, intent(in) :: dense_rows      !! a few of its rows are almost full
     logical, intent(in), optional :: is_definite !! the symmetric matrix is positive definite, and says so
     logical, intent(in), optional :: low_fill !! its factors stay sparse
+    Mat, intent(in), optional :: matrix !! then: itself, filled or not
     logical :: definite, done
     PC :: factors
     PetscErrorCode :: ierr
@@ -69,8 +72,8 @@ contains
     if (present(is_definite)) definite = is_definite
     PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
     PetscCallA(KSPGetPC(linear, factors, ierr))
-    if (present(low_fill)) then
-      call use_klu(factors, prefix, low_fill, done)
+    if (present(low_fill) .and. present(matrix)) then
+      call use_klu(factors, prefix, low_fill, matrix, done)
       if (done) return
     end if
     PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', symmetric)), ierr))
@@ -87,20 +90,23 @@ contains
     if (rank_count() > few_ranks) call set_option_default('-'//prefix//'mat_mumps_icntl_20', '0')
   end subroutine use_factors
 
-  !> Makes a linear solver's factors KLU's, where these are wanted and can be had: on one rank, unless an option asks for
-  !> another package, or for MUMPS' factors in files.
-  subroutine use_klu(factors, prefix, wanted, done)
+  !> Makes a linear solver's factors KLU's, where these are wanted and can be had: on one rank or of a small matrix, unless an
+  !> option asks for another package, or for MUMPS' factors in files.
+  subroutine use_klu(factors, prefix, wanted, matrix, done)
     PC, intent(in) :: factors
     character(len=*), intent(in) :: prefix !! of PETSc's options
     logical, intent(in) :: wanted
+    Mat, intent(in) :: matrix
     logical, intent(out) :: done
+    PetscInt :: rows, columns
     PetscBool :: package, on_disk
     PetscErrorCode :: ierr
     integer(c_int) :: has
 
     done = .false.
     if (.not. wanted) return
-    if (rank_count() > 1) return
+    PetscCallA(MatGetSize(matrix, rows, columns, ierr))
+    if (rank_count() > 1 .and. rows > few_unknowns) return
     PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-'//prefix//'pc_factor_mat_solver_type', package, ierr))
     PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-'//prefix//'mat_mumps_icntl_22', on_disk, ierr))
     if (package .or. on_disk) return
@@ -181,7 +187,7 @@ contains
 
     PetscCallA(KSPGetPC(linear, factors, ierr))
     PetscCallA(PCGetType(factors, kind, ierr))
-    package = 'KLU, sparse factors on one rank'
+    package = 'KLU, sparse factors '//trim(merge('on each rank', 'on one rank ', rank_count() > 1))
     if (kind /= PCSHELL) then
       PetscCallA(PCFactorGetMatSolverType(factors, package, ierr))
     end if

@@ -1,5 +1,8 @@
 /* KLU's factors as a preconditioner of PETSc's: PETSc calls KLU too, but ends the program where a matrix is singular,
-   and does not hand out the sign of its determinant. */
+   and does not hand out the sign of its determinant.
+
+   On several ranks each gathers the whole matrix and factors it, all alike. A solve then takes one message, for the right
+   side; MUMPS' takes many, which in a small solve last longer than all arithmetic. */
 #include <stdint.h>
 #include <petscpc.h>
 
@@ -32,6 +35,11 @@ typedef struct {
   double           growth; /* largest entry of the matrix over that of its upper factor, when pivots were chosen */
   PetscObjectId    matrix;
   PetscObjectState state;
+  /* On several ranks: */
+  Mat          mine;           /* this rank's rows */
+  PetscInt    *row, *column;   /* pattern of the whole matrix */
+  double      *value, *vector; /* its entries; a right side and its solution */
+  PetscMPIInt *entries, *entry, *rows, *first; /* of each rank: how many, and how many before them */
 } Factors;
 
 static PetscErrorCode forget(Factors *factors)
@@ -39,6 +47,9 @@ static PetscErrorCode forget(Factors *factors)
   PetscFunctionBeginUser;
   KLU(free_numeric)(&factors->numeric, &factors->common);
   KLU(free_symbolic)(&factors->symbolic, &factors->common);
+  PetscCall(MatDestroy(&factors->mine));
+  PetscCall(PetscFree4(factors->row, factors->column, factors->value, factors->vector));
+  PetscCall(PetscFree(factors->entries));
   PetscFunctionReturn(0);
 }
 
@@ -62,7 +73,68 @@ static void find_factors(Factors *factors, PetscInt row[], PetscInt column[], do
   factors->growth = factors->common.rgrowth;
 }
 
+/* The pattern of the whole matrix, and room for its entries. */
+static PetscErrorCode gather_pattern(Factors *factors, Mat matrix, PetscMPIInt ranks, PetscMPIInt rank)
+{
+  MPI_Comm        comm = PetscObjectComm((PetscObject)matrix);
+  PetscInt        rows, order, total = 0;
+  const PetscInt *bound, *row, *column;
+  PetscBool       done;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatGetSize(matrix, &order, NULL));
+  PetscCall(MatGetOwnershipRanges(matrix, &bound));
+  PetscCall(MatGetRowIJ(factors->mine, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row, &column, &done));
+  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "KLU takes PETSc's own sparse matrices");
+  PetscCall(PetscMalloc1(4 * ranks, &factors->entries));
+  factors->entry = factors->entries + ranks;
+  factors->rows  = factors->entry + ranks;
+  factors->first = factors->rows + ranks;
+  PetscCall(PetscMPIIntCast(row[rows], factors->entries + rank));
+  PetscCallMPI(MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, factors->entries, 1, MPI_INT, comm));
+  for (PetscMPIInt i = 0; i < ranks; i++) {
+    PetscCall(PetscMPIIntCast(total, factors->entry + i));
+    PetscCall(PetscMPIIntCast(bound[i], factors->first + i));
+    PetscCall(PetscMPIIntCast(bound[i + 1] - bound[i], factors->rows + i));
+    total += factors->entries[i];
+  }
+  PetscCall(PetscMalloc4(order + 1, &factors->row, total, &factors->column, total, &factors->value, order, &factors->vector));
+  factors->row[0] = 0;
+  for (PetscInt i = 0; i < rows; i++) factors->row[bound[rank] + i + 1] = factors->entry[rank] + row[i + 1];
+  PetscCallMPI(MPI_Allgatherv(MPI_IN_PLACE, 0, MPIU_INT, factors->row + 1, factors->rows, factors->first, MPIU_INT, comm));
+  PetscCallMPI(MPI_Allgatherv(column, factors->entries[rank], MPIU_INT, factors->column, factors->entries, factors->entry,
+                              MPIU_INT, comm));
+  PetscCall(MatRestoreRowIJ(factors->mine, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row, &column, &done));
+  PetscFunctionReturn(0);
+}
+
+/* The whole matrix on this rank, of several. */
+static PetscErrorCode gather(Factors *factors, Mat matrix, PetscMPIInt ranks)
+{
+  MPI_Comm      comm = PetscObjectComm((PetscObject)matrix);
+  const double *value;
+  PetscMPIInt   rank;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(MatMPIAIJGetLocalMat(matrix, factors->mine ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, &factors->mine));
+  if (!factors->row) PetscCall(gather_pattern(factors, matrix, ranks, rank));
+  PetscCall(MatSeqAIJGetArrayRead(factors->mine, &value));
+  PetscCallMPI(MPI_Allgatherv(value, factors->entries[rank], MPI_DOUBLE, factors->value, factors->entries, factors->entry,
+                              MPI_DOUBLE, comm));
+  PetscCall(MatSeqAIJRestoreArrayRead(factors->mine, &value));
+  PetscFunctionReturn(0);
+}
+
 /* PETSc has the matrix by rows, KLU takes columns: the factors are those of the transposed matrix. */
+static void make_factors(Factors *factors, PetscInt order, PetscInt row[], PetscInt column[], double value[])
+{
+  if (!factors->symbolic) factors->symbolic = KLU(analyze)(order, row, column, &factors->common);
+  if (!factors->symbolic) return;
+  refactor(factors, row, column, value);
+  if (!factors->numeric) find_factors(factors, row, column, value);
+}
+
 static PetscErrorCode factor(PC pc)
 {
   Factors           *factors;
@@ -73,44 +145,58 @@ static PetscErrorCode factor(PC pc)
   PetscBool          done;
   PetscObjectId      id;
   PetscObjectState   state;
+  PetscMPIInt        ranks, failed, any;
 
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(pc, &factors));
   PetscCall(PCGetOperators(pc, NULL, &matrix));
   PetscCall(PetscObjectGetId((PetscObject)matrix, &id));
   PetscCall(MatGetNonzeroState(matrix, &state));
-  if (factors->symbolic && (id != factors->matrix || state != factors->state)) PetscCall(forget(factors));
+  if (id != factors->matrix || state != factors->state) PetscCall(forget(factors));
   factors->matrix = id;
   factors->state  = state;
-  PetscCall(MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &order, &row, &column, &done));
-  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "KLU takes matrices of one rank");
-  PetscCall(MatSeqAIJGetArrayRead(matrix, &value));
-  if (!factors->symbolic) factors->symbolic = KLU(analyze)(order, (PetscInt *)row, (PetscInt *)column, &factors->common);
-  if (factors->symbolic) {
-    refactor(factors, (PetscInt *)row, (PetscInt *)column, (double *)value);
-    if (!factors->numeric) find_factors(factors, (PetscInt *)row, (PetscInt *)column, (double *)value);
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &ranks));
+  if (ranks > 1) {
+    PetscCall(MatGetSize(matrix, &order, NULL));
+    PetscCall(gather(factors, matrix, ranks));
+    make_factors(factors, order, factors->row, factors->column, factors->value);
+  } else {
+    PetscCall(MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &order, &row, &column, &done));
+    PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_SUP, "KLU takes PETSc's own sparse matrices");
+    PetscCall(MatSeqAIJGetArrayRead(matrix, &value));
+    make_factors(factors, order, (PetscInt *)row, (PetscInt *)column, (double *)value);
+    PetscCall(MatSeqAIJRestoreArrayRead(matrix, &value));
+    PetscCall(MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &order, &row, &column, &done));
   }
-  PetscCall(MatSeqAIJRestoreArrayRead(matrix, &value));
-  PetscCall(MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &order, &row, &column, &done));
-  if (factors->numeric) PetscCall(PCSetFailedReason(pc, PC_NOERROR));
-  else if (factors->common.status == KLU_SINGULAR) PetscCall(PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT));
-  else PetscCall(PCSetFailedReason(pc, PC_FACTOR_OUTMEMORY));
+  failed = PC_NOERROR;
+  if (!factors->numeric) failed = factors->common.status == KLU_SINGULAR ? PC_FACTOR_NUMERIC_ZEROPIVOT : PC_FACTOR_OUTMEMORY;
+  /* One rank alone may have no memory. */
+  PetscCallMPI(MPI_Allreduce(&failed, &any, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)pc)));
+  PetscCall(PCSetFailedReason(pc, (PCFailedReason)any));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode solve_by(PC pc, Vec right, Vec solution, PetscBool transposed)
 {
-  Factors     *factors;
-  PetscScalar *value;
-  PetscInt     order;
+  Factors           *factors;
+  const PetscScalar *given;
+  PetscScalar       *value;
+  PetscInt           first, last;
 
   PetscFunctionBeginUser;
   PetscCall(PCShellGetContext(pc, &factors));
-  PetscCall(VecGetLocalSize(right, &order));
-  PetscCall(VecCopy(right, solution));
+  PetscCall(VecGetOwnershipRange(right, &first, &last));
   PetscCall(VecGetArray(solution, &value));
-  if (transposed) KLU(solve)(factors->symbolic, factors->numeric, order, 1, value, &factors->common);
-  else KLU(tsolve)(factors->symbolic, factors->numeric, order, 1, value, &factors->common);
+  PetscCall(VecGetArrayRead(right, &given));
+  double *whole = factors->vector ? factors->vector : value;
+  if (factors->vector) {
+    PetscCallMPI(MPI_Allgatherv(given, (PetscMPIInt)(last - first), MPI_DOUBLE, whole, factors->rows, factors->first, MPI_DOUBLE,
+                                PetscObjectComm((PetscObject)pc)));
+  } else PetscCall(PetscArraycpy(whole, given, last - first));
+  if (transposed) KLU(solve)(factors->symbolic, factors->numeric, factors->symbolic->n, 1, whole, &factors->common);
+  else KLU(tsolve)(factors->symbolic, factors->numeric, factors->symbolic->n, 1, whole, &factors->common);
+  if (factors->vector) PetscCall(PetscArraycpy(value, whole + first, last - first));
+  PetscCall(VecRestoreArrayRead(right, &given));
   PetscCall(VecRestoreArray(solution, &value));
   PetscFunctionReturn(0);
 }

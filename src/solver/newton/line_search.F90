@@ -376,8 +376,10 @@ contains
     PetscReal :: size_x, size_y
 
     PetscCall(VecNorm(f, NORM_2, before, ierr))
-    PetscCall(VecNorm(x, NORM_INFINITY, size_x, ierr))
-    PetscCall(VecNorm(y, NORM_INFINITY, size_y, ierr))
+    PetscCall(VecNormBegin(x, NORM_INFINITY, size_x, ierr))
+    PetscCall(VecNormBegin(y, NORM_INFINITY, size_y, ierr))
+    PetscCall(VecNormEnd(x, NORM_INFINITY, size_x, ierr))
+    PetscCall(VecNormEnd(y, NORM_INFINITY, size_y, ierr))
     line%steps = line%steps + 1
     line%step_before = line%step
     line%size_x = max(1.0_wp, size_x)

@@ -210,7 +210,8 @@ contains
     if (solver%iterates) then
       call use_multigrid(linear, prefix, system%symmetric, system%motions)
     else
-      call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite, system%low_fill)
+      call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite, system%low_fill, &
+                       system%jacobian)
     end if
     if (.not. system%slow_change) return
     if (.not. solver%iterates) call use_lagged_factors(linear)

@@ -9,10 +9,14 @@
 !>
 !> so that a pair of steps is all that is kept. What was learned serves the next equations, too, as long as the factors do.
 !>
+!> On several ranks a sum over all of them costs more than the products of a small system. So the products with the step as it
+!> was found are summed at once, and those with its changes follow from products of the pairs.
+!>
 !> Source: [Kelley1995] section 7.3.
 module gfb_secant_steps
   use petscvec
   use gfb_kinds, only: wp
+  use gfb_petsc_session, only: rank_count
   implicit none (type)
   private
   public :: begin_secants, improve_step, expect_next, forget_secants, destroy_secants
@@ -29,6 +33,9 @@ module gfb_secant_steps
     integer, private :: order(most_pairs) = 0      !! which vectors are the pairs'
     real(wp), private :: square(most_pairs) = 0.0_wp !! y_n^T y_n [1]
     real(wp), private :: last_square = 0.0_wp
+    logical, private :: at_once = .false. !! products are summed so
+    real(wp), allocatable, private :: cross(:, :)   !! then: y_n^T y_{m+1}, m < n [1]
+    real(wp), allocatable, private :: last_cross(:) !! of the step before
     type(tVec), private :: before(most_pairs), after(most_pairs) !! y_n, y_{n+1}, scaled
     type(tVec), private :: last    !! the step before, scaled
   end type secants_type
@@ -53,6 +60,8 @@ contains
     end do
     PetscCallA(VecDuplicate(like, secants%last, ierr))
     secants%created = .true.
+    secants%at_once = rank_count() > 1
+    allocate (secants%cross(most_pairs, most_pairs), secants%last_cross(most_pairs), source=0.0_wp)
   end subroutine begin_secants
 
   !> Improves a step that kept factors have found, and learns from it.
@@ -60,20 +69,33 @@ contains
     type(secants_type), intent(inout) :: secants !! pairs of steps; gets one more
     Vec, intent(in) :: y !! the step, scaled; is changed
     PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
-    PetscReal :: product
-    real(wp) :: divisor
+    PetscReal :: product, found(most_pairs + 1)
+    real(wp) :: divisor, share(most_pairs)
     integer :: i, oldest
 
     ierr = 0
+    if (secants%at_once) call sum_products(secants, y, secants%before, found, ierr)
+    CHKERRQ(ierr)
     do i = 1, secants%pairs
-      associate (pair => secants%order(i))
-        PetscCall(VecDot(secants%before(pair), y, product, ierr))
-        PetscCall(VecAXPY(y, product/secants%square(pair), secants%after(pair), ierr))
+      associate (pair => secants%order(i), earlier => secants%order(:i - 1))
+        if (secants%at_once) then
+          product = found(i) + dot_product(secants%cross(pair, earlier), share(:i - 1))
+        else
+          PetscCall(VecDot(secants%before(pair), y, product, ierr))
+        end if
+        share(i) = product/secants%square(pair)
+        PetscCall(VecAXPY(y, share(i), secants%after(pair), ierr))
       end associate
     end do
     if (.not. secants%expects) return
     secants%expects = .false.
-    PetscCall(VecDot(secants%last, y, product, ierr))
+    if (secants%at_once) then
+      associate (pairs => secants%pairs)
+        product = found(pairs + 1) + dot_product(secants%last_cross(secants%order(:pairs)), share(:pairs))
+      end associate
+    else
+      PetscCall(VecDot(secants%last, y, product, ierr))
+    end if
     divisor = 1.0_wp - product/secants%last_square
     if (.not. (divisor > least_divisor .and. divisor < most_divisor)) return
     PetscCall(VecScale(y, 1.0_wp/divisor, ierr))
@@ -88,8 +110,28 @@ contains
       PetscCall(VecCopy(secants%last, secants%before(pair), ierr))
       PetscCall(VecCopy(y, secants%after(pair), ierr))
       secants%square(pair) = secants%last_square
+      secants%cross(pair, :) = secants%last_cross
     end associate
   end subroutine improve_step
+
+  !> Products of a step with one of each pair, the oldest first, and with the step before: one sum over the ranks.
+  subroutine sum_products(secants, y, of_pairs, product, ierr)
+    type(secants_type), intent(in) :: secants !! pairs of steps
+    Vec, intent(in) :: y !! the step
+    type(tVec), intent(in) :: of_pairs(:) !! `before` or `after`
+    PetscReal, intent(out) :: product(:) !! one more than there are pairs
+    PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
+    integer :: i
+
+    do i = 1, secants%pairs
+      PetscCall(VecDotBegin(of_pairs(secants%order(i)), y, product(i), ierr))
+    end do
+    PetscCall(VecDotBegin(secants%last, y, product(secants%pairs + 1), ierr))
+    do i = 1, secants%pairs
+      PetscCall(VecDotEnd(of_pairs(secants%order(i)), y, product(i), ierr))
+    end do
+    PetscCall(VecDotEnd(secants%last, y, product(secants%pairs + 1), ierr))
+  end subroutine sum_products
 
   !> A step was taken: where whole, the next one will tell something of the matrix.
   subroutine expect_next(secants, y, whole, ierr)
@@ -97,15 +139,22 @@ contains
     Vec, intent(in) :: y !! it, scaled
     logical, intent(in) :: whole !! it was taken so, and contacts are where they are linearised
     PetscErrorCode, intent(out) :: ierr !! PETSc's error code, 0 for none
-    PetscReal :: product
+    PetscReal :: product, found(most_pairs + 1)
 
     ierr = 0
     secants%expects = .false.
     if (.not. whole) return
-    PetscCall(VecDot(y, y, product, ierr))
+    PetscCall(VecCopy(y, secants%last, ierr))
+    if (secants%at_once) then
+      call sum_products(secants, y, secants%after, found, ierr)
+      CHKERRQ(ierr)
+      secants%last_cross(secants%order(:secants%pairs)) = found(:secants%pairs)
+      product = found(secants%pairs + 1)
+    else
+      PetscCall(VecDot(y, y, product, ierr))
+    end if
     secants%last_square = product
     secants%expects = product > 0.0_wp
-    PetscCall(VecCopy(y, secants%last, ierr))
   end subroutine expect_next
 
   !> Forgets all: there are new factors.
@@ -127,6 +176,7 @@ contains
       PetscCallA(VecDestroy(secants%after(i), ierr))
     end do
     PetscCallA(VecDestroy(secants%last, ierr))
+    deallocate (secants%cross, secants%last_cross)
     secants%created = .false.
     call forget_secants(secants)
   end subroutine destroy_secants

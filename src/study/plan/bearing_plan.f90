@@ -30,6 +30,8 @@ module gfb_bearing_plan
   public :: plan_bearing
 
   integer, parameter :: digits = 3 !! shown
+  !> of the film: a rank that has fewer waits more than it computes
+  integer, parameter :: few_nodes = 500
 
   !> Cell Peclet number of the concentric film above which SUPG is chosen [1]. Rigid bearings,
   !> Lambda 0.1 to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error;
@@ -132,7 +134,8 @@ contains
       call log%line('pads: '//text(scene%bearing%pads)// &
                     ', each with such a film and foils of its own')
     end if
-    plan%memory = film_memory(nodes*scene%bearing%pads)
+    call show_few(nodes*scene%bearing%pads, scene, log)
+    plan%memory = film_memory(nodes*scene%bearing%pads, rank_count())
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
     if (scene%rotor%distance_in_time > 0.0_wp) plan%memory = 2.0_wp*plan%memory ! two bearings
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
@@ -146,6 +149,19 @@ contains
       call log%line('sweep: '//text(size(scene%sweep%values))//' points')
     end if
   end subroutine plan_bearing
+
+  !> Says that a scene is too small for its ranks.
+  subroutine show_few(nodes, scene, log)
+    integer, intent(in) :: nodes !! of all films
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+
+    if (rank_count() == 1 .or. scene%model%foil == foil_shell) return
+    if (nodes >= few_nodes*rank_count()) return
+    call log%line('ranks: '//text(nodes/rank_count())//' nodes of the film on each, where '// &
+                  text(few_nodes)//' are few: one rank is hardly slower, and --groups computes '// &
+                  'points of a sweep side by side')
+  end subroutine show_few
 
   !> Rows of nodes in the part of the width that is solved.
   pure integer function solved_rows(plan) result(rows)

@@ -13,6 +13,7 @@ module gfb_memory_check
   use gfb_run_log, only: run_log_type
   use gfb_machine_memory, only: available_memory, unknown_memory
   use gfb_petsc_session, only: rank_count, ranks_on_node, largest_over_ranks
+  use gfb_nonlinear_system, only: few_unknowns
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell, reduction_guyan
   use gfb_scene_case, only: analysis_strip, analysis_modes
@@ -25,6 +26,7 @@ module gfb_memory_check
 
   real(wp), parameter :: a_rank = 45.0e6_wp       !! a process with its libraries [B]
   real(wp), parameter :: a_film_node = 2.0e3_wp   !! one unknown, and its equation's factors [B]
+  real(wp), parameter :: on_each_rank = 0.5_wp    !! of that, where each rank has all factors
 
   real(wp), parameter :: megabyte = 1.0e6_wp, gigabyte = 1.0e9_wp !! [B]
 
@@ -81,9 +83,11 @@ contains
   end function modes_memory
 
   !> A film without shells [B].
-  pure real(wp) function film_memory(nodes) result(bytes)
+  pure real(wp) function film_memory(nodes, ranks) result(bytes)
     integer, intent(in) :: nodes !! that are solved
+    integer, intent(in) :: ranks !! of the job
     bytes = real(nodes, wp)*a_film_node
+    if (nodes <= few_unknowns) bytes = bytes*(1.0_wp + on_each_rank*real(ranks - 1, wp))
   end function film_memory
 
   !> A bearing of shells [B].
