@@ -1,6 +1,7 @@
 """Programs of other revisions of gfb, for tools that compare two programs; each is built once."""
 
 import os
+import re
 import shutil
 import subprocess
 
@@ -40,3 +41,9 @@ def version_of(program):
     if said.status != 0:
         stop(f"{program} --version ended with status {said.status}:\n{said.log}{said.complaint}", 3)
     return said.log.splitlines()[0]
+
+
+def kernel_of(program):
+    """The kernel of OpenBLAS that a program chooses; empty where it names none."""
+    found = re.search(r", (\w+) kernel$", version_of(program))
+    return found[1] if found else ""

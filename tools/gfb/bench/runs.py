@@ -10,6 +10,7 @@ import signal
 import subprocess
 import time
 
+from gfb.build import kernel_of
 from gfb.results import read_json, read_summary
 from gfb.run import ENVIRONMENT, command_of, write_case
 from gfb.tool import ROOT, stop
@@ -181,6 +182,7 @@ class Bench:
         self.limits = Limits(options.seconds, options.memory)
         self.strip_program = pathlib.Path(self.gfb).with_name("gfb_bench_varied_strip")
         self.probe = build_probe(folder)
+        self.kernel = kernel_of(self.gfb)  # a start anew for it would lose the probe
         self.rows, self.measures = {}, True
         if gfb:
             return
@@ -233,7 +235,8 @@ class Bench:
         counts = self.folder/"counts"
         for old in [*self.folder.glob("counts.*"), *self.folder.glob("case.*.summary"), self.folder/"case.summary"]:
             old.unlink(missing_ok=True)
-        whole = ["env", f"LD_PRELOAD={self.probe}", f"GFB_PROBE_FILE={counts}", *command,
+        kernel = [f"OPENBLAS_CORETYPE={self.kernel}"] if self.kernel else []
+        whole = ["env", *kernel, f"LD_PRELOAD={self.probe}", f"GFB_PROBE_FILE={counts}", *command,
                  "-log_view", "::ascii_info_detail"]
         if ranks > 1:
             whole = ["mpiexec", "-n", str(ranks), *whole]

@@ -23,7 +23,7 @@ import subprocess
 import tempfile
 import time
 
-from gfb.build import BUILDS, program_of, version_of
+from gfb.build import BUILDS, kernel_of, program_of, version_of
 from gfb.compare.results import EXCLUDED, folder_differences
 from gfb.compare.runs import fingerprint, kept_run, run, tasks
 from gfb.run import find_gfb
@@ -132,12 +132,6 @@ def main():
         return stop(str(wrong), FAILED)
 
 
-def use_one_kernel(version):
-    """Both programs compute with the kernel of OpenBLAS that the second one chooses: kernels round differently."""
-    if (kernel := re.search(r", (\w+) kernel$", version)):
-        os.environ.setdefault("OPENBLAS_CORETYPE", kernel[1])
-
-
 def compare(options):
     """Compares the scenes that are chosen; the exit status."""
     chosen = [task for task in tasks(options.small) if options.only.search(task.name)]
@@ -148,7 +142,8 @@ def compare(options):
         return EQUAL
     programs = (program_of(options.before, "BEFORE"),
                 program_of(options.after, "AFTER") if options.after else find_gfb())
-    use_one_kernel(version_of(programs[1]))
+    if (kernel := kernel_of(programs[1])):  # for both: kernels round differently
+        os.environ.setdefault("OPENBLAS_CORETYPE", kernel)
     for which, program in zip(("before", "after "), programs):
         print(f"{which}: {program}: {version_of(program)}")
     print(plain_table("left out of the comparison", ["name", "why"], [list(one) for one in EXCLUDED.items()]))
