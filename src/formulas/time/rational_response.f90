@@ -29,6 +29,7 @@ module gfb_rational_response
   type :: fit_type
     complex(wp), allocatable :: slope(:, :), value(:, :) !! L and M
     complex(wp), allocatable :: right(:, :), left(:, :)  !! of the samples' values
+    real(wp) :: unit = 1.0_wp !! of its frequencies [rad/s]
   end type fit_type
 
   !> Samples of a response at rates \( i \omega \), and the function through them.
@@ -40,7 +41,6 @@ module gfb_rational_response
     complex(wp), allocatable :: value(:, :, :) !! (force, motion, sample) Z [SI]
     complex(wp), allocatable :: slope(:, :, :) !! dZ/ds there [SI]
     real(wp), allocatable, private :: scale(:) !! makes the coordinates' entries alike
-    real(wp), private :: unit = 1.0_wp         !! of frequencies [rad/s]
     type(fit_type), private :: fit, fit_before !! to all samples; to all but the last
   contains
     procedure :: add
@@ -94,9 +94,8 @@ contains
     self%value = reshape([self%value, value], [n, n, size(self%frequency)])
     self%slope = reshape([self%slope, slope], [n, n, size(self%frequency)])
     if (.not. self%fits()) return
-    self%unit = max(tiny(1.0_wp), maxval(self%frequency))
-    self%fit = fit_of(self, size(self%frequency))
-    if (size(self%frequency) > 1) self%fit_before = fit_of(self, size(self%frequency) - 1)
+    self%fit_before = self%fit
+    self%fit = fit_of(self)
   end subroutine add
 
   !> Whether there is a sample at a frequency.
@@ -126,7 +125,7 @@ contains
     if (self%has(frequency)) then
       value = self%value(:, :, findloc(abs(self%frequency - frequency) <= 0.0_wp, .true., 1))
     else
-      value = scaled(value_of(self%fit, frequency/self%unit), 1.0_wp/self%scale)
+      value = scaled(value_of(self%fit, frequency), 1.0_wp/self%scale)
     end if
   end function at
 
@@ -139,8 +138,8 @@ contains
     complex(wp) :: now(size(self%scale), size(self%scale))
 
     now = scaled(self%at(frequency), self%scale)
-    doubt = maxval(abs(now - value_of(self%fit_before, frequency/self%unit)))/max(tiny(1.0_wp), &
-      maxval(abs(now)))
+    doubt = maxval(abs(now - value_of(self%fit_before, frequency)))/ &
+            max(tiny(1.0_wp), maxval(abs(now)))
   end function doubt
 
   !> The frequency whose sample would help most: both ends and the middle first, then where the
@@ -168,23 +167,24 @@ contains
     place = maxloc(need, 1, open)
   end function next_sample
 
-  !> The function through the first samples.
-  pure function fit_of(self, samples) result(fit)
+  !> The function through the samples.
+  pure function fit_of(self) result(fit)
     class(rational_response_type), intent(in) :: self
-    integer, intent(in) :: samples !! that it is to have
     type(fit_type) :: fit
+    real(wp) :: unit
     complex(wp), allocatable :: rate(:), value(:, :, :), slope(:, :, :), loewner(:, :), &
       shifted(:, :), right(:, :), left(:, :)
     integer :: i, j, n
 
     n = size(self%scale)
-    rate = cmplx(0.0_wp, self%frequency(:samples)/self%unit, wp)
-    value = self%value(:, :, :samples)
-    slope = self%slope(:, :, :samples)*self%unit
+    unit = max(tiny(1.0_wp), maxval(self%frequency))
+    rate = cmplx(0.0_wp, self%frequency/unit, wp)
+    value = self%value
+    slope = self%slope*unit
     if (self%is_real) then
       rate = [rate, conjg(rate)]
-      value = reshape([value, conjg(value)], [n, n, 2*samples])
-      slope = reshape([slope, conjg(slope)], [n, n, 2*samples])
+      value = reshape([value, conjg(value)], [n, n, size(rate)])
+      slope = reshape([slope, conjg(slope)], [n, n, size(rate)])
     end if
     do i = 1, size(rate)
       value(:, :, i) = scaled(value(:, :, i), self%scale)
@@ -210,6 +210,7 @@ contains
     left = reshape(value, [n, n*size(rate)])
     right = reshape(reshape(value, [n, size(rate), n], order=[1, 3, 2]), [n*size(rate), n])
     fit = reduced(loewner, shifted, right, left)
+    fit%unit = unit
   end function fit_of
 
   !> The matrices in the directions that are more than round-off.
@@ -250,13 +251,13 @@ contains
   !> The function at a rate, of scaled coordinates; huge at a pole.
   pure function value_of(fit, frequency) result(value)
     type(fit_type), intent(in) :: fit
-    real(wp), intent(in) :: frequency !! over the unit [1]
+    real(wp), intent(in) :: frequency !! [rad/s]
     complex(wp) :: value(size(fit%left, 1), size(fit%left, 1))
     complex(wp) :: matrix(size(fit%value, 1), size(fit%value, 1)), motion(size(fit%value, 1), &
       size(value, 2))
     integer :: pivots(size(matrix, 1)), info
 
-    matrix = fit%value - cmplx(0.0_wp, frequency, wp)*fit%slope
+    matrix = fit%value - cmplx(0.0_wp, frequency/fit%unit, wp)*fit%slope
     motion = fit%right
     call zgesv(size(matrix, 1), size(motion, 2), matrix, size(matrix, 1), pivots, motion, &
       size(matrix, 1), info)

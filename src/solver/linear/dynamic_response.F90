@@ -36,8 +36,8 @@ module gfb_dynamic_response
                                  destroy_complex_factors, keep_entries
   implicit none (type)
   private
-  public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, response_failure, factor_part, &
-            solve_part, forces_of, destroy_response
+  public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, take_over_counts, response_failure, &
+            factor_part, solve_part, forces_of, destroy_response
 
   !> of a journal's motions
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
@@ -351,13 +351,21 @@ contains
     associate (opposite => response%opposite)
       call find_coefficients(response%opposite_bearing, opposite, rate, other, found)
       coefficient(tilts, tilts) = other(tilts, tilts)
+    end associate
+    call take_over_counts(response)
+  end subroutine find_coefficients
+
+  !> What the opposite motions have cost counts as the response's own.
+  subroutine take_over_counts(response)
+    type(dynamic_response_type), intent(inout) :: response !! with an opposite one, which counts anew
+    associate (opposite => response%opposite)
       response%factorizations = response%factorizations + opposite%factorizations
       response%enlargements = response%enlargements + opposite%enlargements
       response%status = opposite%status
       opposite%factorizations = 0
       opposite%enlargements = 0
     end associate
-  end subroutine find_coefficients
+  end subroutine take_over_counts
 
   !> Z of a part's motions and its derivative by \( \lambda \), with one factorization.
   subroutine find_sample(bearing, response, number, rate, value, slope, found)

@@ -12,7 +12,7 @@ module gfb_frequency_response
   use gfb_film_surface, only: journal_motions
   use gfb_rational_response, only: rational_response_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_dynamic_response, only: dynamic_response_type, find_sample
+  use gfb_dynamic_response, only: dynamic_response_type, find_sample, take_over_counts
   implicit none (type, external)
   private
   public :: cover_frequencies, cover_part, add_sample, coefficients_at
@@ -45,15 +45,9 @@ contains
     end do
     if (.not. allocated(response%opposite)) return
     if (.not. allocated(model%opposite)) allocate (model%opposite)
-    associate (opposite => response%opposite)
-      call cover_frequencies(response%opposite_bearing, opposite, frequency, log, model%opposite, found)
-      model%failed = model%opposite%failed
-      response%factorizations = response%factorizations + opposite%factorizations
-      response%enlargements = response%enlargements + opposite%enlargements
-      response%status = opposite%status
-      opposite%factorizations = 0
-      opposite%enlargements = 0
-    end associate
+    call cover_frequencies(response%opposite_bearing, response%opposite, frequency, log, model%opposite, found)
+    model%failed = model%opposite%failed
+    call take_over_counts(response)
   end subroutine cover_frequencies
 
   !> Takes the samples that frequencies need, of the motions of a part.
@@ -68,13 +62,9 @@ contains
     integer :: next
 
     found = .true.
-    if (allocated(model%part)) then
-      if (.not. model%part(number)%fits()) deallocate (model%part) ! other frequencies may be fewer
-    end if
-    if (.not. allocated(model%part)) then
-      allocate (model%part(size(response%part)))
-      model%part%is_real = .not. response%equations%vibration%loss_factor > 0.0_wp
-    end if
+    if (.not. allocated(model%part)) allocate (model%part(size(response%part)))
+    if (.not. model%part(number)%fits()) model%part(number) = rational_response_type() ! other frequencies may be fewer
+    model%part(number)%is_real = .not. response%equations%vibration%loss_factor > 0.0_wp
     do
       next = model%part(number)%next_sample(frequency, tolerance)
       if (next == 0) exit
