@@ -2,6 +2,7 @@
 !> kernel that is several times slower; then the program chooses, by what the processor can do.
 module gfb_blas_kernel
   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
+  use gfb_c_library, only: text_of
   use gfb_machine_memory, only: start_blas
   implicit none (type, external)
   private
@@ -85,13 +86,8 @@ contains
   function kernel_name() result(name)
     character(len=:), allocatable :: name
     character(kind=c_char) :: letters(longest)
-    integer :: i
 
     call gfb_blas_kernel_name(letters, int(longest, c_int))
-    name = ''
-    do i = 1, longest
-      if (letters(i) == c_null_char) exit
-      name = name//letters(i)
-    end do
+    name = text_of(letters)
   end function kernel_name
 end module gfb_blas_kernel

@@ -4,7 +4,7 @@ module gfb_c_library
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: make_folder, remove_file, exit_with_status, peak_memory, host_name, is_terminal
+  public :: make_folder, remove_file, exit_with_status, peak_memory, host_name, text_of, is_terminal
 
   integer(c_int), parameter :: folder_mode = int(o'777', c_int) !! the user's umask takes its part
   integer, parameter :: usage_words = 18 !! length of struct rusage on 64-bit Unix [8 bytes]
@@ -107,14 +107,23 @@ contains
   function host_name() result(name)
     character(len=:), allocatable :: name
     character(kind=c_char) :: letters(256)
-    integer :: i
 
     letters = c_null_char
     name = ''
     if (c_gethostname(letters, 255_c_long) /= 0) return
-    do i = 1, 255
-      if (letters(i) == c_null_char) exit
-      name = name//letters(i)
-    end do
+    name = text_of(letters)
   end function host_name
+
+  !> Letters of C as text, up to their null.
+  pure function text_of(letters) result(words)
+    character(kind=c_char), intent(in) :: letters(:) !! all of them, where there is no null
+    character(len=:), allocatable :: words
+    integer :: i
+
+    words = ''
+    do i = 1, size(letters)
+      if (letters(i) == c_null_char) exit
+      words = words//letters(i)
+    end do
+  end function text_of
 end module gfb_c_library

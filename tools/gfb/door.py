@@ -66,7 +66,7 @@ def run(case: Case | str | os.PathLike[str], folder: str | os.PathLike[str] = "r
     command = [program(gfb), *options, "--output", str(folder), "--", str(path)]
     if ranks > 1:
         command = [os.environ.get("GFB_MPIEXEC", "mpiexec"), "-n", str(ranks), *command]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, env=environment())
+    done = call(command)
     if done.returncode == WRONG_INPUT:
         raise CaseError(done.stderr.strip())
     if done.returncode not in (DONE, NOT_CONVERGED):
@@ -103,7 +103,7 @@ def check_all(cases: Sequence[Case], gfb: str | os.PathLike[str] | None) -> None
     """One call of the program for all; the first case that is wrong raises CaseError."""
     with tempfile.TemporaryDirectory() as folder:
         paths = [str(one.write(pathlib.Path(folder)/f"{number}.nml")) for number, one in enumerate(cases)]
-        right = all(call("--check", "--groups", "1", "--", *paths[first:first + BATCH], gfb=gfb).returncode == DONE
+        right = all(call([program(gfb), "--check", "--groups", "1", "--", *paths[first:first + BATCH]]).returncode == DONE
                     for first in range(0, len(paths), BATCH))
     for one in [] if right else cases:
         one.check(gfb=gfb)
@@ -119,21 +119,16 @@ def run_batch(cases: Sequence[Case], stems: Sequence[pathlib.Path], gfb: str | o
             stem.with_name(stem.name + ending).unlink(missing_ok=True)
         one.write(stem.with_name(stem.name + ".nml"))
     side = f"{stems[0].name}.batch"
-    call("--quiet", "--groups", "1", "--name", side, "--output", stems[0].parent, "--",
-         *(stem.with_name(stem.name + ".nml") for stem in stems), gfb=gfb)
+    call([program(gfb), "--quiet", "--groups", "1", "--name", side, "--output", str(stems[0].parent), "--",
+          *(str(stem.with_name(stem.name + ".nml")) for stem in stems)])
     for ending in (".h5", ".summary"):
         stems[0].with_name(side + ending).unlink(missing_ok=True)
 
 
-def call(*words: object, gfb: str | os.PathLike[str] | None) -> subprocess.CompletedProcess[str]:
-    """Calls the program on one thread."""
-    return subprocess.run([program(gfb), *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
-                          env=environment())
-
-
-def environment() -> dict[str, str]:
-    """One thread a process, where the user has said nothing else."""
-    return {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **os.environ}
+def call(command: Sequence[str]) -> subprocess.CompletedProcess[str]:
+    """Calls the program to its end; one thread a process, where the user has said nothing else."""
+    return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                          env={"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **os.environ})
 
 
 def find_member(case: Case, stem: pathlib.Path) -> tuple[int, dict[str, Any], dict[str, str]] | None:
