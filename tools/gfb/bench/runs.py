@@ -1,6 +1,7 @@
 """Runs of tools/bench scaling: processes with limits, what their logs say, and rows that outlive an interrupted run."""
 
 import dataclasses
+import functools
 import hashlib
 import json
 import os
@@ -182,7 +183,6 @@ class Bench:
         self.limits = Limits(options.seconds, options.memory)
         self.strip_program = pathlib.Path(self.gfb).with_name("gfb_bench_varied_strip")
         self.probe = build_probe(folder)
-        self.kernel = kernel_of(self.gfb)  # a start anew for it would lose the probe
         self.rows, self.measures = {}, True
         if gfb:
             return
@@ -229,6 +229,11 @@ class Bench:
             row["summary"] = {name: float(value) for name, value in lines}
             row["memory"] = row["summary"]["peak_memory"]
         return row
+
+    @functools.cached_property
+    def kernel(self):
+        """The kernel that the program chooses, for its runs: a start anew for it would lose the probe."""
+        return kernel_of(self.gfb)
 
     def run(self, command, ranks):
         """A command with the probe in it, and PETSc's log."""
