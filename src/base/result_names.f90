@@ -212,8 +212,7 @@ contains
   !> The names that a row stands for, but for numbers and keys.
   pure recursive function names_of_row(pattern) result(names)
     character(len=*), intent(in) :: pattern !! the row's name
-    character(len=name_length), allocatable :: names(:)
-    character(len=name_length), allocatable :: words(:), before(:)
+    character(len=name_length), allocatable :: names(:), words(:), before(:)
     integer :: i, j, k
 
     names = [character(len=name_length) :: pattern]

@@ -43,20 +43,11 @@ module gfb_run_log
     real(wp) :: patience = 10.0_wp !! time without a line, before one that waits [s]
     type(log_memory_type), pointer :: memory => null() !! null: nothing is collected
   contains
-    procedure :: begin => run_log_begin
-    procedure :: remember => run_log_remember
-    procedure :: line => run_log_line
-    procedure :: tell => run_log_tell
-    procedure :: stage => run_log_stage
-    procedure :: progress => run_log_progress
-    procedure :: is_at => run_log_is_at
-    procedure :: is_within => run_log_is_within
-    procedure :: waiting => run_log_waiting
-    procedure :: detail => run_log_detail
-    procedure :: heading => run_log_heading
-    procedure :: warning => run_log_warning
-    procedure :: warned => run_log_warned
-    procedure :: repeat_warnings => run_log_repeat_warnings
+    procedure :: begin => run_log_begin, remember => run_log_remember, line => run_log_line
+    procedure :: tell => run_log_tell, stage => run_log_stage, progress => run_log_progress
+    procedure :: is_at => run_log_is_at, is_within => run_log_is_within, waiting => run_log_waiting
+    procedure :: detail => run_log_detail, heading => run_log_heading, warning => run_log_warning
+    procedure :: warned => run_log_warned, repeat_warnings => run_log_repeat_warnings
     procedure :: complaint => run_log_complaint
   end type run_log_type
 

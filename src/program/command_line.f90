@@ -39,8 +39,7 @@ module gfb_command_line
     logical :: verbose = .false. !! a line per iteration
     character(len=:), allocatable :: words !! the whole line
   contains
-    procedure :: context => run_context
-    procedure :: informs
+    procedure :: context => run_context, informs
   end type command_line_type
 
   character(len=12), parameter :: options(19) = [character(len=12) :: &

@@ -58,14 +58,10 @@ module gfb_refinement
     real(wp), allocatable :: value(:)      !! of the meshes in a row that have answers
     real(wp), allocatable :: coefficients(:, :) !! (entry, mesh) the same of stiffness, damping [SI]
   contains
-    procedure :: add => sequence_add
-    procedure :: add_coefficients => sequence_add_coefficients
+    procedure :: add => sequence_add, add_coefficients => sequence_add_coefficients
     procedure :: coefficient_errors => sequence_coefficient_errors
-    procedure :: is_of_many => sequence_is_of_many
-    procedure :: met => sequence_met
-    procedure :: quantities => sequence_quantities
-    procedure :: show => sequence_show
-    procedure :: needs => sequence_needs
+    procedure :: is_of_many => sequence_is_of_many, met => sequence_met
+    procedure :: quantities => sequence_quantities, show => sequence_show, needs => sequence_needs
     procedure :: value_words => sequence_value_words
     procedure, private :: last => sequence_last
   end type mesh_sequence_type
@@ -79,11 +75,8 @@ module gfb_refinement
     character(len=:), allocatable, private :: stopped !! why there are no more meshes
     character(len=:), allocatable, private :: beams   !! what beams would do, part of a sentence
   contains
-    procedure :: prepare => prepare_refinement
-    procedure :: check => check_nothing
-    procedure :: solve => refine
-    procedure :: write => write_finest
-    procedure :: discard => discard_finest
+    procedure :: prepare => prepare_refinement, check => check_nothing, solve => refine
+    procedure :: write => write_finest, discard => discard_finest
   end type refinement_type
 
 contains

@@ -270,8 +270,7 @@ contains
   pure function friction_limits(contacts, displacement) result(limits)
     type(coulomb_contacts_type), intent(in) :: contacts !! stiffness, forces and friction of all
     real(wp), intent(in) :: displacement(:) !! u (n) [m]
-    real(wp) :: limits(size(displacement))
-    real(wp) :: normal(size(contacts%owner))
+    real(wp) :: limits(size(displacement)), normal(size(contacts%owner))
     integer :: k
 
     normal = normal_forces(contacts, displacement)

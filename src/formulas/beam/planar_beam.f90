@@ -52,8 +52,7 @@ contains
   pure function linear_beam_stiffness(section, ends) result(stiffness)
     type(beam_section_type), intent(in) :: section !! thickness and material of the beam
     real(wp), intent(in) :: ends(2, 2)     !! (x, v) of the first and of the second end [m]
-    real(wp) :: stiffness(2*beam_unknowns, 2*beam_unknowns)
-    real(wp) :: length, tangent(2), normal(2)
+    real(wp) :: stiffness(2*beam_unknowns, 2*beam_unknowns), length, tangent(2), normal(2)
     real(wp), dimension(2*beam_unknowns) :: stretch, curvature, shear
 
     length = norm2(ends(:, 2) - ends(:, 1))
@@ -88,8 +87,7 @@ contains
     real(wp), intent(in) :: density    !! rho [kg/m3]
     real(wp), intent(in) :: thickness  !! t [m]
     real(wp), intent(in) :: ends(2, 2) !! (x, v) of the first and of the second end [m]
-    real(wp) :: mass(2*beam_unknowns, 2*beam_unknowns)
-    real(wp) :: third
+    real(wp) :: mass(2*beam_unknowns, 2*beam_unknowns), third
     integer :: i, k
 
     mass = 0.0_wp
@@ -110,8 +108,7 @@ contains
     type(beam_section_type), intent(in) :: section !! thickness and material of the beam
     real(wp), intent(in) :: ends(2, 2)         !! (x, v) of the first and of the second end [m]
     real(wp), intent(in) :: displacement(beam_unknowns, 2) !! of the ends [m], [rad]
-    real(wp) :: force(2)
-    real(wp) :: length, change(beam_unknowns)
+    real(wp) :: force(2), length, change(beam_unknowns)
 
     length = norm2(ends(:, 2) - ends(:, 1))
     change = displacement(:, 2) - displacement(:, 1)

@@ -116,8 +116,7 @@ contains
     type(shell_geometry_type), intent(in) :: geometry !! the element at its Gauss points
     real(wp), intent(in) :: thickness                !! h [m]
     type(shell_turn_type), intent(in) :: turn !! rotations of the directors
-    real(wp) :: rows(shell_unknowns, shear_points)
-    real(wp) :: side(3), half_thickness(3)
+    real(wp) :: rows(shell_unknowns, shear_points), side(3), half_thickness(3)
     integer :: point, i, j, row_i, row_j, k
 
     rows = 0.0_wp

@@ -92,8 +92,7 @@ contains
   !> Sines of the corners' angles, positive where they run counter-clockwise about the director.
   pure function corner_sines(geometry) result(sine)
     type(shell_geometry_type), intent(in) :: geometry
-    real(wp) :: sine(shell_nodes)
-    real(wp) :: edge(3, shell_nodes), length(shell_nodes)
+    real(wp) :: sine(shell_nodes), edge(3, shell_nodes), length(shell_nodes)
     integer, parameter :: after(shell_nodes) = [2, 3, 4, 1], before(shell_nodes) = [4, 1, 2, 3]
     integer :: a
 
@@ -144,8 +143,7 @@ contains
     real(wp), intent(in) :: thickness !! h [m]
     integer, intent(in) :: corner     !! node
     integer, intent(in) :: face       !! 1 or -1
-    real(wp) :: base(3, 3)
-    real(wp) :: shape(shell_nodes), by_xi(shell_nodes), by_eta(shell_nodes)
+    real(wp) :: base(3, 3), shape(shell_nodes), by_xi(shell_nodes), by_eta(shell_nodes)
 
     call bilinear(node_xi(corner), node_eta(corner), shape, by_xi, by_eta)
     base = shell_base(geometry, thickness, shape, by_xi, by_eta, real(face, wp))

@@ -45,8 +45,7 @@ contains
     real(wp), intent(in) :: time(:)  !! (instants) rising [s]
     real(wp), intent(in) :: value(:) !! (instants) in its unit [SI]
     real(wp), intent(in) :: from, to !! not before the first instant, not behind the last one [s]
-    real(wp) :: extremes(2)
-    real(wp) :: ends(2), slope(2), curvature, vertex, seen(3)
+    real(wp) :: extremes(2), ends(2), slope(2), curvature, vertex, seen(3)
     integer :: first, i
 
     if (size(time) < 3) then
@@ -135,8 +134,7 @@ contains
     real(wp), intent(in) :: time(:), value(:) !! (instants) [s], [SI]
     real(wp), intent(in) :: ends(2) !! [s]
     integer, intent(in) :: samples
-    real(wp) :: sample(samples)
-    real(wp) :: share(samples)
+    real(wp) :: sample(samples), share(samples)
     integer :: j
 
     share = [(real(j, wp), j=0, samples - 1)]/real(samples, wp)
@@ -164,8 +162,7 @@ contains
   pure function interpolated(place, value, asked) result(found)
     real(wp), intent(in) :: place(:), value(:) !! (four or more) rising; [SI]
     real(wp), intent(in) :: asked(:) !! rising
-    real(wp) :: found(size(asked))
-    real(wp) :: weight
+    real(wp) :: found(size(asked)), weight
     integer :: first, i, j, k
 
     first = 1

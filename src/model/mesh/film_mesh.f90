@@ -118,8 +118,7 @@ contains
   pure function cell_nodes(column, row, stations, rows) result(nodes)
     integer, intent(in) :: column, row    !! of the cell, from 1
     integer, intent(in) :: stations, rows !! of the whole mesh; the last station's next is the first
-    integer :: nodes(4)
-    integer :: here, next
+    integer :: nodes(4), here, next
 
     here = (column - 1)*rows + row
     next = modulo(column, stations)*rows + row

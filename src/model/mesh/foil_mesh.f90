@@ -172,8 +172,7 @@ contains
   pure function arc_point(half_length, height, fraction) result(point)
     real(wp), intent(in) :: half_length, height !! l, h_b [m]
     real(wp), intent(in) :: fraction !! 0 to 1; corners and crest are exact [1]
-    real(wp) :: point(2)
-    real(wp) :: turn
+    real(wp) :: point(2), turn
 
     if (fraction <= 0.0_wp) then
       point = 0.0_wp
@@ -191,8 +190,7 @@ contains
   pure function arc_normal(half_length, height, fraction) result(normal)
     real(wp), intent(in) :: half_length, height !! l, h_b [m]
     real(wp), intent(in) :: fraction !! of the arc, 0 to 1 [1]
-    real(wp) :: normal(2)
-    real(wp) :: turn
+    real(wp) :: normal(2), turn
 
     turn = (2.0_wp*fraction - 1.0_wp)*half_angle(half_length, height)
     normal = [sin(turn), cos(turn)]
@@ -538,8 +536,7 @@ contains
   !> Whole numbers from one to another.
   pure function numbers(first, last) result(list)
     integer, intent(in) :: first, last
-    integer :: list(max(0, last - first + 1))
-    integer :: i
+    integer :: list(max(0, last - first + 1)), i
     list = [(i, i=first, last)]
   end function numbers
 end module gfb_foil_mesh

@@ -35,8 +35,7 @@ contains
   pure function film_columns(film, part) result(column_part)
     type(film_mesh_type), intent(in) :: film !! the film's mesh
     integer, intent(in) :: part(:) !! of the chain's pieces
-    integer :: column_part(film%order*size(part))
-    integer :: i
+    integer :: column_part(film%order*size(part)), i
     column_part = [(spread(part(i), 1, film%order), i=1, size(part))]
   end function film_columns
 
@@ -66,8 +65,7 @@ contains
     type(strip_shape_type), intent(in) :: shape !! the strip's shape
     logical, intent(in) :: reduced !! bumps are condensed
     integer, intent(in) :: part(:) !! of the chain's pieces
-    integer, allocatable :: column_part(:)
-    integer, allocatable :: divide(:)
+    integer, allocatable :: column_part(:), divide(:)
     integer :: i
 
     column_part = part

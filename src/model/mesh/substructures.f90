@@ -111,8 +111,7 @@ contains
   pure function places_in(piece, nodes) result(places)
     type(substructure_type), intent(in) :: piece !! a substructure
     integer, intent(in) :: nodes(:) !! of the mesh, rising
-    integer :: places(size(nodes))
-    integer :: i, low, high, middle
+    integer :: places(size(nodes)), i, low, high, middle
 
     do i = 1, size(nodes)
       low = 1

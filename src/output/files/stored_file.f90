@@ -20,10 +20,7 @@ module gfb_stored_file
     character(len=:), allocatable :: refused !! what was not read on purpose, and why, or empty
     integer(hid_t), private :: file = -1
   contains
-    procedure :: has, words, scalar
-    procedure :: count => whole_number
-    procedure :: numbers
-    procedure :: block => block_of_rank
+    procedure :: has, words, scalar, count => whole_number, numbers, block => block_of_rank
     procedure :: find_shape
     procedure, private :: open_dataset, refuse, lose
   end type stored_file_type

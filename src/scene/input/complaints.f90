@@ -21,9 +21,7 @@ module gfb_complaints
     integer :: count = 0                     !! mistakes found
     type(complaint_type), allocatable, private :: kept(:)
   contains
-    procedure :: add => add_complaint
-    procedure :: add_new => add_new_complaints
-    procedure :: report => report_complaints
+    procedure :: add => add_complaint, add_new => add_new_complaints, report => report_complaints
   end type complaints_type
 
 contains

@@ -24,9 +24,7 @@ module gfb_namelist_file
     integer :: step = 1          !! from element to element
     logical :: ranges = .false.  !! a section was typed, not one index
   contains
-    procedure :: place => section_place
-    procedure :: size => section_size
-    procedure :: holds => section_holds
+    procedure :: place => section_place, size => section_size, holds => section_holds
     procedure :: shown => section_shown
   end type section_type
 

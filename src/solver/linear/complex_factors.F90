@@ -179,8 +179,7 @@ contains
   !> Entries of the longest row of this rank.
   function longest_row(matrix) result(entries)
     Mat, intent(in) :: matrix
-    PetscInt :: entries
-    PetscInt :: first, last, row
+    PetscInt :: entries, first, last, row
     PetscErrorCode :: ierr
 
     entries = 0

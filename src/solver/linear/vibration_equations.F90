@@ -155,8 +155,7 @@ contains
   pure function weight_rates_at(vibration, rate) result(rates)
     type(vibration_type), intent(in) :: vibration !! of the foil
     complex(wp), intent(in) :: rate !! lambda [1/s]
-    type(weights_type) :: rates
-    type(weights_type) :: weights
+    type(weights_type) :: rates, weights
 
     weights = weights_at(vibration, rate)
     rates%squeeze = 1.0_wp

@@ -54,15 +54,9 @@ module gfb_partitioned
     !> of each unknown this rank knows: a pressure's among `film_part`, a displacement's in `part`, from 0 on
     integer, allocatable, private :: number(:)
   contains
-    procedure :: evaluate => evaluate_side
-    procedure :: linearise => linearise_side
-    procedure :: settle => settle_side
-    procedure :: begin_step => begin_side_step
-    procedure :: virtual_work => work_on_side
-    procedure :: take => take_side
-    procedure :: give => give_side
-    procedure :: fix_film
-    procedure :: destroy => destroy_side
+    procedure :: evaluate => evaluate_side, linearise => linearise_side, settle => settle_side
+    procedure :: begin_step => begin_side_step, virtual_work => work_on_side, take => take_side
+    procedure :: give => give_side, fix_film, destroy => destroy_side
   end type coupling_side_type
 
   integer, parameter :: most_loops = 200         !! of film and foil

@@ -32,11 +32,8 @@ module gfb_bordered_system
     type(border_type), private :: border      !! lambda
     logical, private :: created = .false.
   contains
-    procedure :: evaluate => evaluate_path
-    procedure :: linearise => linearise_path
-    procedure :: settle => settle_path
-    procedure :: begin_step => begin_path_step
-    procedure :: virtual_work => path_work
+    procedure :: evaluate => evaluate_path, linearise => linearise_path, settle => settle_path
+    procedure :: begin_step => begin_path_step, virtual_work => path_work
     procedure :: lambda_of, set_lambda, join, split, give
     procedure, private :: point_at
   end type bordered_system_type

@@ -71,13 +71,8 @@ module gfb_continuation
     character(len=:), allocatable :: why !! the last trial has failed
     Vec :: here, before                !! last two answers
   contains
-    procedure :: try => try_point
-    procedure :: accept => accept_point
-    procedure :: restore => restore_point
-    procedure :: has_steps
-    procedure :: gives_up => path_gives_up
-    procedure :: rescue => rescue_path
-    procedure :: is_too_far => too_thin
+    procedure :: try => try_point, accept => accept_point, restore => restore_point, has_steps
+    procedure :: gives_up => path_gives_up, rescue => rescue_path, is_too_far => too_thin
   end type point_path_type
 
 contains

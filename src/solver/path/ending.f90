@@ -49,9 +49,7 @@ module gfb_ending
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
     logical :: of_smaller = .false.           !! the ending is a smaller mesh's, not shown here
   contains
-    procedure :: converged
-    procedure :: has_cause => report_has_cause
-    procedure :: reason
+    procedure :: converged, has_cause => report_has_cause, reason
   end type path_report_type
 
 contains

@@ -37,9 +37,7 @@ module gfb_stepper
     procedure(try_interface), deferred :: try
     procedure(accept_interface), deferred :: accept
     procedure(restore_interface), deferred :: restore
-    procedure :: has_steps => always_has_steps
-    procedure :: gives_up => never_gives_up
-    procedure :: rescue => no_rescue
+    procedure :: has_steps => always_has_steps, gives_up => never_gives_up, rescue => no_rescue
     procedure :: is_too_far => never_too_far
   end type path_problem_type
 

@@ -100,8 +100,7 @@ contains
   !> Eigenvalues of a 2 x 2 matrix.
   pure function planar_eigenvalues(matrix) result(kappa)
     complex(wp), intent(in) :: matrix(2, 2) !! in any unit [SI]
-    complex(wp) :: kappa(2)
-    complex(wp) :: mean, root
+    complex(wp) :: kappa(2), mean, root
 
     mean = 0.5_wp*(matrix(1, 1) + matrix(2, 2))
     root = sqrt((0.5_wp*(matrix(1, 1) - matrix(2, 2)))**2 + matrix(1, 2)*matrix(2, 1))

@@ -32,16 +32,12 @@ module gfb_bearing_study
     type(bearing_plan_type) :: plan
     type(bearing_solution_type) :: solution
   contains
-    procedure :: prepare => prepare_bearing
-    procedure :: solve => solve_study
-    procedure :: find_answers
+    procedure :: prepare => prepare_bearing, solve => solve_study, find_answers
     procedure :: first_point   !! number of the sweep's value with which it begins; 0: the scene's own point
     procedure :: record_first  !! what follows the search for the first answer
     procedure :: continue => end_at_first !! the answers that follow
     procedure :: add_arrays    !! what the result file gets beside the record
-    procedure :: write => write_study
-    procedure :: left_out => bearing_left_out
-    procedure :: discard => discard_bearing
+    procedure :: write => write_study, left_out => bearing_left_out, discard => discard_bearing
   end type bearing_study_type
 
 contains

@@ -47,9 +47,7 @@ module gfb_branches_study
     type(work_bound_type) :: bound !! of the first search
     type(branch_search_type) :: search
   contains
-    procedure :: prepare => prepare_search
-    procedure :: solve => solve_study
-    procedure :: write => write_study
+    procedure :: prepare => prepare_search, solve => solve_study, write => write_study
     procedure :: discard => discard_search
   end type branches_study_type
 

@@ -54,12 +54,8 @@ module gfb_key_path
     logical :: leaps = .false.             !! Newton's steps may be bent
     character(len=:), allocatable :: problem !! why the last trial has no answer
   contains
-    procedure :: try => try_key
-    procedure :: accept => accept_key
-    procedure :: restore => restore_key
-    procedure :: has_steps
-    procedure :: rescue => leap
-    procedure :: is_too_far => touches
+    procedure :: try => try_key, accept => accept_key, restore => restore_key, has_steps
+    procedure :: rescue => leap, is_too_far => touches
   end type key_path_type
 
 contains

@@ -24,16 +24,14 @@ module gfb_motion_study
   type, extends(bearing_study_type), public :: transient_study_type
     type(transient_type), allocatable, private :: motion !! once there is the equilibrium
   contains
-    procedure :: find_answers => find_transient
-    procedure :: add_arrays => add_transient
+    procedure :: find_answers => find_transient, add_arrays => add_transient
   end type transient_study_type
 
   !> The bearing, and its shaft's orbits.
   type, extends(bearing_study_type), public :: periodic_study_type
     type(periodic_type), allocatable, private :: motion !! once there is the equilibrium
   contains
-    procedure :: find_answers => find_orbits
-    procedure :: add_arrays => add_orbits
+    procedure :: find_answers => find_orbits, add_arrays => add_orbits
   end type periodic_study_type
 
 contains

@@ -32,12 +32,8 @@ module gfb_sweep_study
   !> The bearing, and its points.
   type, extends(bearing_study_type), public :: sweep_study_type
   contains
-    procedure :: first_point => first_value
-    procedure :: record_first => begin_sweep
-    procedure :: continue => finish_sweep
-    procedure :: reach => reach_value
-    procedure :: record_point => record_value
-    procedure :: save_point => save_value
+    procedure :: first_point => first_value, record_first => begin_sweep, continue => finish_sweep
+    procedure :: reach => reach_value, record_point => record_value, save_point => save_value
     procedure :: save_stopped
     procedure, private :: show_progress
   end type sweep_study_type

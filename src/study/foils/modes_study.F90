@@ -46,9 +46,7 @@ module gfb_modes_study
     type(case_array_type), allocatable :: arrays(:) !! matrices of the reduced strip
     type(quantity_type), allocatable :: reduced(:)  !! its frequencies
   contains
-    procedure :: prepare => prepare_modes
-    procedure :: solve => solve_modes
-    procedure :: write => write_study
+    procedure :: prepare => prepare_modes, solve => solve_modes, write => write_study
     procedure :: discard => discard_modes
   end type modes_study_type
 

@@ -62,15 +62,9 @@ module gfb_strip_study
     type(strip_recorder_type) :: recorder
     integer :: before(2) = 0 !! iterations and factorizations before the present step
   contains
-    procedure :: prepare => prepare_strip
-    procedure :: solve => solve_strip
-    procedure :: reach => reach_step
-    procedure :: record_point => record_step
-    procedure :: save_point => save_step
-    procedure :: save_stopped
-    procedure :: write => write_study
-    procedure :: left_out => strip_left_out
-    procedure :: discard => discard_strip
+    procedure :: prepare => prepare_strip, solve => solve_strip, reach => reach_step
+    procedure :: record_point => record_step, save_point => save_step, save_stopped
+    procedure :: write => write_study, left_out => strip_left_out, discard => discard_strip
     procedure, private :: save, restore, visit, explain
   end type strip_study_type
 

@@ -56,8 +56,7 @@ module gfb_periodic
   type, public :: orbit_table_type
     type(orbit_type), allocatable :: orbit(:)
   contains
-    procedure :: add => add_orbit
-    procedure :: add_arrays => add_orbit_arrays
+    procedure :: add => add_orbit, add_arrays => add_orbit_arrays
   end type orbit_table_type
 
   real(wp), parameter :: known = 2.0e-5_wp !! error of a multiplier: that of differences of the map [1]
@@ -83,9 +82,7 @@ module gfb_periodic
     integer, private :: folds = 0
     logical, private :: subcritical = .false. !! limit cycles begin where the equilibrium is stable
   contains
-    procedure :: run => run_periodic
-    procedure :: results
-    procedure :: add_arrays => add_periodic_arrays
+    procedure :: run => run_periodic, results, add_arrays => add_periodic_arrays
     procedure, private :: begin_forced, begin_free, follow, keep_orbit, phase, turn_way
   end type periodic_type
 

@@ -47,12 +47,8 @@ module gfb_sample
     class(study_type), allocatable, private :: plan !! of the scene's own draw
     type(table_member_type), allocatable :: member(:)
   contains
-    procedure :: prepare => prepare_sample
-    procedure :: solve => solve_all
-    procedure :: solve_member, judge
-    procedure :: write => write_study
-    procedure :: left_out => left_out_of_members
-    procedure :: discard => discard_sample
+    procedure :: prepare => prepare_sample, solve => solve_all, solve_member, judge
+    procedure :: write => write_study, left_out => left_out_of_members, discard => discard_sample
   end type sample_type
 
 contains

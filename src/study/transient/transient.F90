@@ -80,10 +80,7 @@ module gfb_transient
     real(wp) :: smallest_gap = huge(1.0_wp)     !! of all steps [m]
     type(orbit_record_type) :: orbit            !! of all steps of the last turns
   contains
-    procedure :: add => add_line
-    procedure :: see => see_step
-    procedure :: add_arrays => add_history
-    procedure :: lacks_spectrum
+    procedure :: add => add_line, see => see_step, add_arrays => add_history, lacks_spectrum
     procedure :: visit => visit_history
   end type transient_history_type
 
@@ -99,9 +96,7 @@ module gfb_transient
     character(len=:), allocatable :: lacking !! what was asked for and not reached; empty: nothing
     logical, private :: within = .false. !! the end is one that was asked for
   contains
-    procedure :: run => run_transient
-    procedure :: results
-    procedure :: add_arrays => add_transient_arrays
+    procedure :: run => run_transient, results, add_arrays => add_transient_arrays
     procedure, private :: look_for_limits, look_for_steady_orbit, change_of_orbit, judge_end, save
     procedure, private :: restore, visit
   end type transient_type
