@@ -18,20 +18,20 @@ module gfb_plausible_values
   !> What is usual of the values of some keys; signs do not count, and zero is always usual.
   type, public :: range_type
     real(wp) :: low, high       !! smallest and largest usual value [the keys' unit]
-    character(len=8) :: unit    !! the keys'
+    character(len=9) :: unit    !! the keys'
     character(len=19) :: others !! what the number may be meant in: units, the likeliest first
     character(len=207) :: keys !! `group%key`, with blanks between them
   end type range_type
 
   !> Why a key has no usual range.
   type, public :: reason_type
-    character(len=26) :: key !! `group%key`
+    character(len=28) :: key !! `group%key`
     character(len=40) :: reason
   end type reason_type
 
   !> A unit in which a number may be meant.
   type, public :: unit_type
-    character(len=8) :: name
+    character(len=10) :: name
     real(wp) :: size !! in the key's unit [1]
   end type unit_type
 
@@ -51,11 +51,31 @@ module gfb_plausible_values
     range_type(1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa', 'gas%ambient_pressure'), &
     range_type(1.0e-10_wp, 1.0e-4_wp, 'm', 'um,mm', 'gas%mean_free_path'), &
     range_type(50.0_wp, 3000.0_wp, 'K', '', 'gas%temperature'), &
+    range_type(200.0_wp, 1300.0_wp, 'K', '', &
+               'thermal%ambient_temperature thermal%shaft_temperature '// &
+               'thermal%shaft_far_temperature thermal%shaft_end_temperature '// &
+               'thermal%top_foil_temperature thermal%reference_temperature'), &
+    range_type(200.0_wp, 1300.0_wp, 'K', '', 'thermal%cooling_temperature '// &
+               'thermal%sleeve_temperature thermal%sleeve_far_temperature'), &
+    range_type(300.0_wp, 1.6e4_wp, 'J/(kg K)', 'J/(g K)', 'thermal%specific_heat'), &
+    range_type(0.1_wp, 2.0_wp, '1', '%', 'thermal%prandtl'), &
+    range_type(1.0e-4_wp, 1.0e3_wp, 'W/K', 'mW/K', &
+               'thermal%shaft_conductance thermal%sleeve_conductance '// &
+               'thermal%shaft_end_conductance'), &
+    range_type(0.1_wp, 500.0_wp, 'W/(m K)', 'W/(cm K)', &
+               'thermal%shaft_conductivity thermal%foil_conductivity'), &
+    range_type(1.0_wp, 1.0e5_wp, 'W/(m^2 K)', 'W/(cm^2 K)', 'thermal%bump_conductance '// &
+               'thermal%channel_conductance thermal%channel_sleeve_conductance'), &
+    range_type(1.0e-7_wp, 0.1_wp, 'kg/s', 'g/s', 'thermal%cooling_flow'), &
+    range_type(1.0e-7_wp, 1.0e-4_wp, '1/K', 'um/(m K)', &
+               'thermal%shaft_expansion thermal%sleeve_expansion'), &
+    range_type(1.0e-4_wp, 0.5_wp, 'm', 'mm,um', 'thermal%shaft_inner_radius'), &
     range_type(1.0e-3_wp, 0.5_wp, 'kg/mol', 'g/mol', 'gas%molar_mass'), &
     range_type(1.0e5_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa', 'gas%critical_pressure'), &
     range_type(3.0_wp, 2000.0_wp, 'K', '', 'gas%critical_temperature'), &
     range_type(0.0_wp, 1.5_wp, '1', '%', 'gas%acentric_factor'), &
-    range_type(0.0_wp, 3.0_wp, '1', '%', 'gas%viscosity_exponent'), &
+    range_type(0.0_wp, 3.0_wp, '1', '%', &
+               'gas%viscosity_exponent gas%viscosity_temperature_exponent'), &
     range_type(1.0e2_wp, 1.0e8_wp, 'Pa', 'bar,kPa,MPa', 'gas%density_table_pressure'), &
     range_type(1.0e-3_wp, 2.0e3_wp, 'kg/m^3', 'g/cm^3,g/m^3', 'gas%density_table_density'), &
     range_type(100.0_wp, 2.0e6_wp, 'rpm', 'krpm', &
@@ -69,9 +89,9 @@ module gfb_plausible_values
                'bump_foil%strip_thickness'), &
     range_type(1.0e-3_wp, 1.0e3_wp, 'm', 'mm,um', 'top_foil%free_radius'), &
     range_type(1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa', &
-               'top_foil%youngs_modulus bump_foil%youngs_modulus'), &
+               'top_foil%youngs_modulus bump_foil%youngs_modulus thermal%shaft_youngs_modulus'), &
     range_type(500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3', &
-               'top_foil%density bump_foil%density'), &
+               'top_foil%density bump_foil%density thermal%shaft_density'), &
     range_type(1.0e-4_wp, 2.0e-2_wp, 'm', 'mm,um', &
                'bump_foil%half_length bump_foil%bump_half_length bump_foil%strip_half_length'), &
     range_type(2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um', &
@@ -137,6 +157,8 @@ module gfb_plausible_values
     reason_type('capacity%contact_part', 'between 0 and 1 by its rule'), &
     reason_type('top_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('bump_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
+    reason_type('thermal%shaft_poissons_ratio', 'between -1 and 0.5 by its rule'), &
+    reason_type('thermal%carry_over', 'from 0 to 1 by its rule'), &
     reason_type('contact%exponent', 'bounded by its rule'), &
     reason_type('mesh%edge_refinement', 'from 1 to 100 by its rule'), &
     reason_type('accuracy%target', 'between 0 and 1 by its rule'), &
@@ -150,6 +172,9 @@ module gfb_plausible_values
     unit_type('kPa', 1.0e3_wp), unit_type('bar', 1.0e5_wp), unit_type('MPa', 1.0e6_wp), &
     unit_type('GPa', 1.0e9_wp), unit_type('uPa s', 1.0e-6_wp), unit_type('mPa s', 1.0e-3_wp), &
     unit_type('%', 1.0e-2_wp), unit_type('g', 1.0e-3_wp), unit_type('g/mol', 1.0e-3_wp), &
+    unit_type('J/(g K)', 1.0e3_wp), unit_type('mW/K', 1.0e-3_wp), &
+    unit_type('W/(cm K)', 1.0e2_wp), unit_type('W/(cm^2 K)', 1.0e4_wp), &
+    unit_type('g/s', 1.0e-3_wp), unit_type('um/(m K)', 1.0e-6_wp), &
     unit_type('g/cm^3', 1.0e3_wp), unit_type('g/m^3', 1.0e-3_wp), &
     unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp), &
     unit_type('N s/mm^3', 1.0e9_wp), unit_type('mN', 1.0e-3_wp), unit_type('mN s', 1.0e-3_wp), &

@@ -24,6 +24,7 @@ module gfb_scene
                             is_bearing, misplaced_group, analysis_modes, analysis_misalignment
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
+  use gfb_thermal_case, only: thermal_case_type, read_thermal_case
   use gfb_case_keys, only: case_keys_type, unless
   implicit none (type, external)
   private
@@ -41,6 +42,7 @@ module gfb_scene
     type(bearing_case_type) :: bearing
     type(bore_case_type) :: bore
     type(gas_case_type) :: gas
+    type(thermal_case_type) :: thermal
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep
     type(dynamics_case_type) :: dynamics
@@ -104,6 +106,7 @@ contains
       call read_sweep_case(keys, scene%sweep, analysis)
       call read_top_foil_case(keys, scene%top_foil, needs)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
+      call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, analysis)
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)

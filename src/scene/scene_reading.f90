@@ -180,6 +180,8 @@ contains
       if (.not. scene%shaft_contact%present) problem = 'the file has no group &shaft_contact'
     case ('rotor')
       if (.not. scene%rotor%present) problem = 'the file has no group &rotor'
+    case ('thermal')
+      if (.not. scene%thermal%present) problem = 'the file has no group &thermal'
     case ('capacity')
       if (scene%capacity%question == 0) problem = 'no limit is looked for'
     case ('dynamics', 'foil_damping')
@@ -423,6 +425,7 @@ contains
     there%foil_damping = changed%foil_damping
     there%capacity = changed%capacity
     there%gas = changed%gas
+    there%thermal = changed%thermal
     there%operation = changed%operation
     there%top_foil = changed%top_foil
     there%bump_foil = changed%bump_foil

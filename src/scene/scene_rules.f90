@@ -19,9 +19,12 @@ module gfb_scene_rules
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: join, text
+  use gfb_thermal_case, only: foil_sheet
   implicit none (type, external)
   private
   public :: check_groups, is_symmetric
+
+  character(len=*), parameter :: not_computed = '&thermal: heat is not computed yet'
 
 contains
 
@@ -46,7 +49,20 @@ contains
     call check_periodic(keys, scene)
     call check_shape(keys, scene)
     call check_counts(keys, scene)
+    call check_heat(keys, scene)
   end subroutine check_groups
+
+  !> What heat asks of the scene.
+  subroutine check_heat(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    if (.not. scene%thermal%present) return
+    call keys%rule('top_foil', 'thickness', scene%thermal%top_foil == foil_sheet .and. &
+                   .not. meshes_foils(scene%model%foil) .and. .not. keys%meant('top_foil', &
+                   'thickness'), "must be given: &thermal has top_foil = 'sheet'")
+    if (keys%mistakes() == 0) call keys%complaints%add(keys%line_of_group('thermal'), not_computed)
+  end subroutine check_heat
 
   !> What the asperities load must have equations of its own, and at rest they must carry something.
   subroutine check_shaft_contact(keys, scene)

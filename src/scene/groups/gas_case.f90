@@ -10,29 +10,39 @@ module gfb_gas_case
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: gas_case_type, read_gas_case
+  public :: gas_case_type, read_gas_case, follow_ambient
 
   character(len=*), parameter :: group = 'gas'
-  integer, parameter :: second_word = 2 !! of each choice: not the simplest
+  integer, parameter :: second_word = 2 !! of state and turbulence: not the simplest
+  real(wp), parameter :: air = 0.0289647_wp !! [kg/mol]
+  integer, parameter, public :: viscosity_constant = 1   !! over the temperature
+  integer, parameter, public :: viscosity_sutherland = 2 !! that of air
+  integer, parameter, public :: viscosity_power = 3      !! a power of the temperature
+
+  real(wp), parameter, public :: usual_temperature = 293.15_wp !! where heat is on [K]
+
   character(len=*), parameter :: viscosity_words(*) = [character(len=10) :: 'constant', &
-                                                       'sutherland']
+                                                       'sutherland', 'power']
   character(len=*), parameter :: state_words(*) = [character(len=13) :: 'ideal', 'peng_robinson']
   character(len=*), parameter :: turbulence_words(*) = [character(len=6) :: 'none', 'ng_pan']
   real(wp), parameter :: same = 0.01_wp !! a viscosity beside a law differs by less, relative [1]
 
-  !> The gas, of constant temperature.
+  !> The gas. Without `&thermal` its temperature is even and constant.
   type :: gas_case_type
     real(wp) :: viscosity = 0.0_wp         !! dynamic, at ambient pressure [Pa s]
     real(wp) :: ambient_pressure = 0.0_wp  !! absolute [Pa]
     logical :: has_viscosity_law = .false. !! or a table: `viscosity` is not needed
+    integer :: viscosity_law = viscosity_constant
+    real(wp) :: viscosity_temperature_exponent = 0.0_wp !! of `viscosity_power` [1]
+    real(wp) :: temperature = 0.0_wp       !! 0: not given [K]
+    real(wp) :: molar_mass = 0.0_wp        !! 0: nothing needs it [kg/mol]
     type(gas_law_type) :: law              !! how density, viscosity and flow depend on the pressure
   end type gas_case_type
 
   !> What else the group says.
   type :: gas_keys_type
-    integer :: viscosity_law = 1, state = 1, turbulence = 1 !! words
-    real(wp) :: temperature = 0.0_wp          !! [K]
-    real(wp) :: molar_mass = 0.0_wp           !! [kg/mol]
+    logical :: heated = .false. !! the file has `&thermal`
+    integer :: state = 1, turbulence = 1 !! words
     real(wp) :: critical_temperature = 0.0_wp !! [K]
     real(wp) :: critical_pressure = 0.0_wp    !! [Pa]
     real(wp) :: acentric_factor = 0.0_wp      !! [1]
@@ -56,6 +66,7 @@ contains
     needed = is_bearing(analysis)
     call keys%start_group(group, required=needed, optional=.not. needed, &
                           misplaced=misplaced_group(analysis, needed))
+    said%heated = needed .and. keys%line_of_group('thermal') > 0
     said%table = keys%holds(group, 'density_table_pressure')
     said%viscosities = keys%holds(group, 'density_table_viscosity')
     by_law = said%viscosities .or. keys%holds(group, 'viscosity_law')
@@ -65,24 +76,28 @@ contains
                        default='required without a law or a table of it', given=given)
     call keys%real_key('ambient_pressure', gas%ambient_pressure, 'Pa', &
                        'absolute pressure at the edges of the pad', positive, needed)
-    call keys%choice_key('viscosity_law', said%viscosity_law, viscosity_words, &
-                         'viscosity as given, or that of air at `temperature`')
+    call keys%choice_key('viscosity_law', gas%viscosity_law, viscosity_words, &
+                         'viscosity as given, or that of air at its temperature; with '// &
+                         '`&thermal` also a power of the temperature')
     call keys%rule(group, 'viscosity_law', by_law .and. needed .and. .not. given .and. &
-                   .not. said%viscosities .and. said%viscosity_law == 1, 'needs the key '// &
-                   'viscosity, or another word')
-    by_law = said%viscosities .or. said%viscosity_law == second_word
+                   .not. said%viscosities .and. any(gas%viscosity_law == &
+                   [viscosity_constant, viscosity_power]), 'needs the key viscosity, or '// &
+                   'another word')
+    call keys%rule(group, 'viscosity_law', gas%viscosity_law == viscosity_power .and. &
+                   .not. said%heated, 'needs &thermal: without it the temperature is even')
+    by_law = said%viscosities .or. gas%viscosity_law == viscosity_sutherland
     gas%has_viscosity_law = by_law
     call keys%real_key('mean_free_path', gas%law%mean_free_path, 'm', 'mean free path of the '// &
                        'molecules at `ambient_pressure`, for slip at the surfaces; 0: no slip', &
                        not_negative)
-    call read_state(keys, said, needed, gas%law%viscosity_exponent)
+    call read_state(keys, said, gas, needed)
     call read_table(keys, said, needed)
     if (.not. needed .or. keys%mistakes() > mistakes) return
     if (.not. is_complete(said, gas)) return
     call keys%rule(group, 'equation_of_state', said%table .and. said%state == second_word, &
                    'has no use with a table: density_table_density gives the density')
     call keys%rule(group, 'viscosity_law', said%viscosities .and. &
-                   said%viscosity_law == second_word, 'has no use with '// &
+                   gas%viscosity_law > viscosity_constant, 'has no use with '// &
                    'density_table_viscosity, which gives the viscosity')
     if (said%table) call keys%rule(group, 'ambient_pressure', &
                                    gas%ambient_pressure < minval(said%pressure) .or. &
@@ -94,20 +109,42 @@ contains
     call keys%rule(group, 'ambient_pressure', gas%ambient_pressure >= gas%law%fluid%saturation, &
                    'must be below '//text(gas%law%fluid%saturation, 4)//' Pa, at which the gas '// &
                    'condenses at its temperature')
-    call keys%rule(group, 'viscosity', by_law .and. given .and. &
+    if (.not. (said%heated .and. gas%viscosity_law == viscosity_sutherland)) then
+      call take_viscosity(keys, gas)
+    end if
+  end subroutine read_gas_case
+
+  !> The viscosity becomes that of the law or table, which one that is given must not contradict.
+  subroutine take_viscosity(keys, gas)
+    type(case_keys_type), intent(inout) :: keys
+    type(gas_case_type), intent(inout) :: gas
+
+    call keys%rule(group, 'viscosity', gas%has_viscosity_law .and. gas%viscosity > 0.0_wp .and. &
                    abs(gas%viscosity - gas%law%viscosity) > same*gas%law%viscosity, 'is not '// &
                    'needed: the law or table gives '//text(gas%law%viscosity, 4)//' Pa s at '// &
                    'ambient_pressure; leave it out')
     gas%viscosity = gas%law%viscosity
-  end subroutine read_gas_case
+  end subroutine take_viscosity
+
+  !> With heat, a law that gives the viscosity gives it at ambient temperature.
+  subroutine follow_ambient(keys, gas, temperature)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(gas_case_type), intent(inout) :: gas !! what `&gas` asks for; gets its viscosity
+    real(wp), intent(in) :: temperature !! ambient [K]
+
+    if (gas%viscosity_law /= viscosity_sutherland) return
+    gas%law%viscosity = sutherland_viscosity(temperature)
+    call take_viscosity(keys, gas)
+  end subroutine follow_ambient
 
   !> Density by an equation of state, and what turbulence needs.
-  subroutine read_state(keys, said, needed, viscosity_exponent)
+  subroutine read_state(keys, said, gas, needed)
     type(case_keys_type), intent(inout) :: keys
     type(gas_keys_type), intent(inout) :: said
+    type(gas_case_type), intent(inout) :: gas
     logical, intent(in) :: needed
-    real(wp), intent(inout) :: viscosity_exponent !! [1]
-    logical :: real_gas, turbulent, ideal_turbulence
+    character(len=*), parameter :: no_heat = ' with &thermal, in this version'
+    logical :: real_gas, turbulent, ideal_turbulence, even
 
     call keys%choice_key('equation_of_state', said%state, state_words, &
                          'density of an ideal gas, or by Peng and Robinson')
@@ -116,22 +153,32 @@ contains
     real_gas = said%state == second_word
     turbulent = said%turbulence == second_word
     ideal_turbulence = turbulent .and. .not. (real_gas .or. said%table)
-    call key('temperature', said%temperature, 'K', 'temperature of the gas, even and constant', &
-             positive, real_gas .or. ideal_turbulence .or. said%viscosity_law == second_word, &
-             real_gas .or. said%table .or. turbulent .or. said%viscosity_law == second_word, &
-             "viscosity_law = 'sutherland', equation_of_state = 'peng_robinson', a table, or "// &
-             'turbulence of an ideal gas')
-    call key('molar_mass', said%molar_mass, 'kg/mol', 'mass of a mole of the gas', positive, &
-             turbulent .and. .not. said%table, real_gas .or. ideal_turbulence, &
-             "equation_of_state = 'peng_robinson', or turbulence of an ideal gas")
+    call keys%rule(group, 'equation_of_state', said%heated .and. real_gas, &
+                   "must be 'ideal'"//no_heat)
+    call keys%rule(group, 'turbulence', said%heated .and. turbulent, "must be 'none'"//no_heat)
+    even = gas%viscosity_law == viscosity_sutherland .and. .not. said%heated
+    call key('temperature', gas%temperature, 'K', 'temperature of the gas, even and constant '// &
+             'without `&thermal`', positive, real_gas .or. ideal_turbulence .or. even, &
+             real_gas .or. said%table .or. turbulent .or. even .or. said%heated, &
+             "viscosity_law = 'sutherland', equation_of_state = 'peng_robinson', a table, "// &
+             'turbulence of an ideal gas, or &thermal')
+    if (said%heated) gas%molar_mass = air
+    call key('molar_mass', gas%molar_mass, 'kg/mol', "mass of a mole of the gas, air's "// &
+             '0.0289647 by default with `&thermal`', positive, turbulent .and. .not. &
+             (said%table .or. said%heated), real_gas .or. ideal_turbulence .or. said%heated, &
+             "equation_of_state = 'peng_robinson', turbulence of an ideal gas, or &thermal")
+    call key('viscosity_temperature_exponent', gas%viscosity_temperature_exponent, '1', &
+             'viscosity is `viscosity` times this power of the temperature over that of the '// &
+             'ambient gas', any_value, gas%viscosity_law == viscosity_power, &
+             gas%viscosity_law == viscosity_power, "viscosity_law = 'power'")
     call key('critical_temperature', said%critical_temperature, 'K', 'of the gas', positive, &
              real_gas, real_gas, "equation_of_state = 'peng_robinson'")
     call key('critical_pressure', said%critical_pressure, 'Pa', 'of the gas', positive, real_gas, &
              real_gas, "equation_of_state = 'peng_robinson'")
     call key('acentric_factor', said%acentric_factor, '1', 'of the gas', any_value, real_gas, &
              real_gas, "equation_of_state = 'peng_robinson'")
-    call key('viscosity_exponent', viscosity_exponent, '1', 'viscosity of a real gas is in '// &
-             'proportion to this power of its density', any_value, .false., &
+    call key('viscosity_exponent', gas%law%viscosity_exponent, '1', 'viscosity of a real gas '// &
+             'is in proportion to this power of its density', any_value, .false., &
              (real_gas .or. said%table) .and. .not. said%viscosities, &
              'a real gas whose viscosity is not in its table')
 
@@ -212,16 +259,15 @@ contains
 
     real_gas = said%state == second_word
     complete = gas%ambient_pressure > 0.0_wp
-    complete = complete .and. (gas%viscosity > 0.0_wp .or. said%viscosities .or. &
-                               said%viscosity_law == second_word)
-    if (real_gas .or. said%viscosity_law == second_word) then
-      complete = complete .and. said%temperature > 0.0_wp
+    complete = complete .and. (gas%viscosity > 0.0_wp .or. gas%has_viscosity_law)
+    if (real_gas .or. (gas%viscosity_law == viscosity_sutherland .and. .not. said%heated)) then
+      complete = complete .and. gas%temperature > 0.0_wp
     end if
     if (real_gas) complete = complete .and. said%critical_temperature > 0.0_wp .and. &
                              said%critical_pressure > 0.0_wp
     if (said%table) complete = complete .and. size(said%density) == size(said%pressure)
     if (said%turbulence == second_word .and. .not. said%table) then
-      complete = complete .and. said%molar_mass > 0.0_wp .and. said%temperature > 0.0_wp
+      complete = complete .and. gas%molar_mass > 0.0_wp .and. gas%temperature > 0.0_wp
     end if
   end function is_complete
 
@@ -235,7 +281,8 @@ contains
     associate (law => gas%law)
       law%ambient_pressure = gas%ambient_pressure
       law%viscosity = gas%viscosity
-      if (said%viscosity_law == second_word) law%viscosity = sutherland_viscosity(said%temperature)
+      if (gas%viscosity_law == viscosity_sutherland) law%viscosity = &
+        sutherland_viscosity(merge(gas%temperature, usual_temperature, gas%temperature > 0.0_wp))
       law%turbulent = said%turbulence == second_word
       law%ambient_density = 0.0_wp
       if (said%table) then
@@ -248,14 +295,14 @@ contains
         if (said%viscosities) law%viscosity_curve = monotone_table(said%pressure, said%viscosity)
       else if (said%state == second_word) then
         law%density = density_peng_robinson
-        law%fluid = peng_robinson(said%temperature, said%critical_temperature, &
+        law%fluid = peng_robinson(gas%temperature, said%critical_temperature, &
                                   said%critical_pressure, said%acentric_factor)
-        if (said%temperature < said%critical_temperature) call saturate(law%fluid)
+        if (gas%temperature < said%critical_temperature) call saturate(law%fluid)
         call amount_at(law%fluid, gas%ambient_pressure, density, slope, curvature)
         law%unit = gas%ambient_pressure/density
-        law%ambient_density = density*said%molar_mass
+        law%ambient_density = density*gas%molar_mass
       else if (law%turbulent) then
-        law%ambient_density = gas%ambient_pressure*said%molar_mass/(gas_constant*said%temperature)
+        law%ambient_density = gas%ambient_pressure*gas%molar_mass/(gas_constant*gas%temperature)
       end if
       law%plain = .not. (law%mean_free_path > 0.0_wp .or. law%turbulent .or. said%table .or. &
                          said%state == second_word)

@@ -28,6 +28,7 @@ module gfb_case_reader
   contains
     procedure :: open_text, start_group, finish, report, complain, rule, refuse, warn, warn_of_line
     procedure :: hint_lines, warning_lines, add_new, meant, holds, last_key_is_right, mistakes
+    procedure :: line_of_group
     procedure :: describe, begin_key, end_key, end_numbers, take_real, take_choice, complain_value
   end type case_reader_type
 
@@ -58,12 +59,9 @@ contains
     logical, intent(out), optional :: present_in_file !! the file has the group
     character(len=*), intent(in), optional :: misplaced !! why it does not fit; empty where it does
     type(group_type) :: group
-    integer :: i
 
     group%name = name
-    do i = size(self%file%groups), 1, -1
-      if (self%file%group_name(i) == name) group%line = self%file%groups(i)%line
-    end do
+    group%line = self%line_of_group(name)
     if (present(required)) group%required = required
     if (present(optional)) group%is_echoed = group%line > 0 .or. .not. optional
     call self%book%add_group(group)
@@ -74,6 +72,18 @@ contains
       call self%complaints%add(group%line, '&'//name//': the group '//misplaced)
     end if
   end subroutine start_group
+
+  !> Where a group begins, be it not read yet; 0 where the file does not have it.
+  pure integer function line_of_group(self, name) result(line)
+    class(case_reader_type), intent(in) :: self !! the keys being read
+    character(len=*), intent(in) :: name !! of the group
+    integer :: i
+
+    line = 0
+    do i = size(self%file%groups), 1, -1
+      if (self%file%group_name(i) == name) line = self%file%groups(i)%line
+    end do
+  end function line_of_group
 
   !> After the last group: complains about names that do not exist, and about what is missing.
   subroutine finish(self)
