@@ -32,7 +32,8 @@ module gfb_plausible_values
   !> A unit in which a number may be meant.
   type, public :: unit_type
     character(len=10) :: name
-    real(wp) :: size !! in the key's unit [1]
+    real(wp) :: size          !! in the key's unit [1]
+    real(wp) :: zero = 0.0_wp !! what it counts from [the key's unit]
   end type unit_type
 
   type(range_type), parameter, public :: ranges(*) = [ &
@@ -50,12 +51,12 @@ module gfb_plausible_values
                'gas%viscosity gas%density_table_viscosity'), &
     range_type(1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa', 'gas%ambient_pressure'), &
     range_type(1.0e-10_wp, 1.0e-4_wp, 'm', 'um,mm', 'gas%mean_free_path'), &
-    range_type(50.0_wp, 3000.0_wp, 'K', '', 'gas%temperature'), &
-    range_type(200.0_wp, 1300.0_wp, 'K', '', &
+    range_type(50.0_wp, 3000.0_wp, 'K', 'degC', 'gas%temperature'), &
+    range_type(200.0_wp, 1300.0_wp, 'K', 'degC', &
                'thermal%ambient_temperature thermal%shaft_temperature '// &
                'thermal%shaft_far_temperature thermal%shaft_end_temperature '// &
                'thermal%top_foil_temperature thermal%reference_temperature'), &
-    range_type(200.0_wp, 1300.0_wp, 'K', '', 'thermal%cooling_temperature '// &
+    range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'thermal%cooling_temperature '// &
                'thermal%sleeve_temperature thermal%sleeve_far_temperature'), &
     range_type(300.0_wp, 1.6e4_wp, 'J/(kg K)', 'J/(g K)', 'thermal%specific_heat'), &
     range_type(0.1_wp, 2.0_wp, '1', '%', 'thermal%prandtl'), &
@@ -171,9 +172,10 @@ module gfb_plausible_values
     unit_type('ms', 1.0e-3_wp), unit_type('us', 1.0e-6_wp), unit_type('mm/s^2', 1.0e-3_wp), &
     unit_type('kPa', 1.0e3_wp), unit_type('bar', 1.0e5_wp), unit_type('MPa', 1.0e6_wp), &
     unit_type('GPa', 1.0e9_wp), unit_type('uPa s', 1.0e-6_wp), unit_type('mPa s', 1.0e-3_wp), &
+    unit_type('degC', 1.0_wp, 273.15_wp), unit_type('J/(g K)', 1.0e3_wp), &
+    unit_type('mW/K', 1.0e-3_wp), unit_type('W/(cm K)', 1.0e2_wp), &
     unit_type('%', 1.0e-2_wp), unit_type('g', 1.0e-3_wp), unit_type('g/mol', 1.0e-3_wp), &
-    unit_type('J/(g K)', 1.0e3_wp), unit_type('mW/K', 1.0e-3_wp), &
-    unit_type('W/(cm K)', 1.0e2_wp), unit_type('W/(cm^2 K)', 1.0e4_wp), &
+    unit_type('W/(cm^2 K)', 1.0e4_wp), &
     unit_type('g/s', 1.0e-3_wp), unit_type('um/(m K)', 1.0e-6_wp), &
     unit_type('g/cm^3', 1.0e3_wp), unit_type('g/m^3', 1.0e-3_wp), &
     unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp), &
@@ -311,6 +313,7 @@ contains
     real(wp), intent(in) :: number !! [the key's unit]
     character(len=:), allocatable :: words
     character(len=:), allocatable :: left, name
+    real(wp) :: value !! [the key's unit]
     integer :: comma, i
 
     words = ''
@@ -320,8 +323,9 @@ contains
       name = left(:comma - 1)
       left = left(min(comma, len(left)) + 1:)
       do i = 1, size(units)
-        if (units(i)%name /= name .or. .not. is_usual(range, number*units(i)%size)) cycle
-        words = '; did you mean '//text(number)//' '//name//' = '//text(number*units(i)%size)
+        value = number*units(i)%size + units(i)%zero
+        if (units(i)%name /= name .or. .not. is_usual(range, value)) cycle
+        words = '; did you mean '//text(number)//' '//name//' = '//text(value)
         if (range%unit /= '1') words = words//' '//trim(range%unit)
         words = words//'?'
         return

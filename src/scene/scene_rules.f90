@@ -2,7 +2,8 @@
 module gfb_scene_rules
   use gfb_kinds, only: wp
   use gfb_units, only: turn
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle, &
+                              leading_edge_periodic
   use gfb_case_keys, only: case_keys_type
   use gfb_study_rules, only: check_counts, check_sweep, check_edge_lift, check_accuracy, &
                              check_capacity, check_sample, is_unloaded
@@ -12,18 +13,20 @@ module gfb_scene_rules
                             foundation_pressure_local
   use gfb_motion_rules, only: check_dynamics, check_foil_mass, check_rotor, check_transient, &
                               check_periodic
-  use gfb_operation_case, only: operation_case_type
+  use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: join, text
-  use gfb_thermal_case, only: foil_sheet
+  use gfb_thermal_case, only: thermal_case_type, wall_given, wall_conductance, wall_fin, &
+                              foil_given, foil_sheet
   implicit none (type, external)
   private
   public :: check_groups, is_symmetric
 
+  character(len=*), parameter :: heat = 'thermal' !! the group
   character(len=*), parameter :: not_computed = '&thermal: heat is not computed yet'
 
 contains
@@ -52,17 +55,136 @@ contains
     call check_heat(keys, scene)
   end subroutine check_groups
 
-  !> What heat asks of the scene.
+  !> What heat asks of the scene; first what it cannot have beside it yet.
   subroutine check_heat(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: not_yet = 'not yet with &thermal'
 
-    if (.not. scene%thermal%present) return
-    call keys%rule('top_foil', 'thickness', scene%thermal%top_foil == foil_sheet .and. &
-                   .not. meshes_foils(scene%model%foil) .and. .not. keys%meant('top_foil', &
-                   'thickness'), "must be given: &thermal has top_foil = 'sheet'")
-    if (keys%mistakes() == 0) call keys%complaints%add(keys%line_of_group('thermal'), not_computed)
+    if (.not. (scene%thermal%present .and. is_bearing(scene%general%analysis))) return
+    call keys%rule('scene', 'analysis', scene%dynamics%present, not_yet)
+    call keys%rule('scene', 'analysis', scene%transient%present, not_yet)
+    call keys%rule('scene', 'analysis', scene%periodic%present, not_yet)
+    call keys%rule('rotor', 'mass', scene%rotor%present, not_yet)
+    call keys%rule('solver', 'stability', scene%solver%stability, not_yet)
+    call keys%rule('sensitivity', 'parameters', scene%sensitivity%present, not_yet)
+    call keys%rule('accuracy', 'quantity', scene%accuracy%present, not_yet)
+    call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
+                   "must be 'monolithic' with &thermal")
+    call keys%rule('model', 'half_width', scene%model%half_width == half_width_yes .and. &
+                   .not. scene%thermal%mirrors(), "must not be 'yes': cooling_flow, or ends of "// &
+                   'the shaft that differ, in &thermal make both halves differ')
+    call check_walls(keys, scene%thermal)
+    call check_heated_foil(keys, scene)
+    call check_growth(keys, scene)
+    if (keys%mistakes() == 0) call keys%complaints%add(keys%line_of_group(heat), not_computed)
   end subroutine check_heat
+
+  !> Each wall has the keys of its kind alone, and heat has a way out.
+  subroutine check_walls(keys, thermal)
+    type(case_keys_type), intent(inout) :: keys
+    type(thermal_case_type), intent(in) :: thermal
+    logical :: known
+
+    call only('shaft_temperature', thermal%shaft, wall_given, "shaft = 'given'")
+    call only('shaft_conductance, shaft_far_temperature', thermal%shaft, wall_conductance, &
+              "shaft = 'conductance'")
+    call only('shaft_conductivity, shaft_end_conductance, shaft_end_temperature', thermal%shaft, &
+              wall_fin, "shaft = 'fin'")
+    call only('sleeve_temperature', thermal%sleeve, wall_given, "sleeve = 'given'")
+    call only('sleeve_conductance, sleeve_far_temperature', thermal%sleeve, wall_conductance, &
+              "sleeve = 'conductance'")
+    call only('top_foil_temperature', thermal%top_foil, foil_given, "top_foil = 'given'")
+    call keys%refuse(heat, 'cooling_temperature, channel_conductance, '// &
+                     'channel_sleeve_conductance', .not. keys%meant(heat, 'cooling_flow'), &
+                     'needs cooling_flow')
+    known = min(thermal%shaft, thermal%sleeve, thermal%top_foil) > 0 .and. &
+      (keys%holds(heat, 'bump_conductance') .or. thermal%bump_conductance_estimated)
+    if (thermal%shaft == wall_conductance) known = known .and. keys%meant(heat, 'shaft_conductance')
+    if (thermal%shaft == wall_fin) known = known .and. keys%meant(heat, 'shaft_end_conductance')
+    if (thermal%sleeve /= wall_conductance .or. .not. known) return
+    if (.not. keys%meant(heat, 'sleeve_conductance')) return
+    call keys%rule(heat, 'shaft', .not. thermal%has_way_out(), 'leaves no way out for the '// &
+                   'heat: shaft, sleeve and foil are insulated')
+    call keys%rule(heat, 'sleeve_conductance', .not. max(thermal%sleeve_conductance, &
+                   thermal%bump_conductance, thermal%cooling_flow* &
+                   thermal%channel_sleeve_conductance) > 0.0_wp, 'must be positive where no '// &
+                   'heat reaches the sleeve: it has no temperature else')
+
+  contains
+
+    !> Refuses keys of another kind of wall.
+    subroutine only(names, wall, kind, words)
+      character(len=*), intent(in) :: names, words
+      integer, intent(in) :: wall, kind !! that there is, 0 where not known; that has the keys
+      call keys%refuse(heat, names, all(wall /= [0, kind]), 'needs '//words)
+    end subroutine only
+  end subroutine check_walls
+
+  !> Sizes of foils that are not meshed, on which their heat depends.
+  subroutine check_heated_foil(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    associate (thermal => scene%thermal)
+      call keys%rule(heat, 'carry_over', scene%bearing%leading_edge_condition == &
+                     leading_edge_periodic .and. keys%meant(heat, 'carry_over'), 'has no use '// &
+                     "with leading_edge_condition = 'periodic': a full ring has no slit")
+      if (meshes_foils(scene%model%foil)) return
+      call keys%rule('top_foil', 'thickness', thermal%top_foil == foil_sheet .and. .not. &
+                     keys%meant('top_foil', 'thickness'), 'must be given: top_foil is '// &
+                     "'sheet' in &thermal")
+      call keys%rule(heat, 'bump_conductance', thermal%top_foil == foil_sheet .and. .not. &
+                     (thermal%bump_conductance_estimated .or. keys%holds(heat, &
+                     'bump_conductance')), 'must be given: an estimate needs thickness, '// &
+                     'half_length, height and pitch in &bump_foil')
+      call keys%rule(heat, 'channel_sleeve_conductance', thermal%cooling_flow > 0.0_wp .and. &
+                     .not. (scene%bump_foil%height%value > 0.0_wp .or. keys%holds(heat, &
+                     'channel_sleeve_conductance')), 'must be given: &bump_foil has no height')
+    end associate
+  end subroutine check_heated_foil
+
+  !> A shaft that grows with its speed leaves a gap at rest.
+  subroutine check_growth(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: names(*) = [character(len=20) :: 'shaft_density', &
+                                   'shaft_youngs_modulus', 'shaft_poissons_ratio']
+    logical :: given(size(names))
+    integer :: i
+
+    given = [(keys%meant(heat, trim(names(i))), i=1, size(names))]
+    call keys%rule(heat, trim(names(max(1, findloc(given, .true., 1)))), any(given) .and. .not. &
+                   all(given), 'needs '//join(pack(names, .not. given), ' and ')//', too')
+    associate (thermal => scene%thermal, bearing => scene%bearing, sweep => scene%sweep)
+      call keys%refuse(heat, 'shaft_inner_radius', .not. any(given) .and. all(thermal%shaft /= &
+                       [0, wall_fin]), "needs shaft = 'fin', or shaft_density")
+      if (.not. min(bearing%radius, bearing%clearance) > 0.0_wp) return
+      call keys%rule(heat, 'shaft_inner_radius', thermal%shaft_inner_radius >= bearing%radius, &
+                     'must be less than the radius of '//text(bearing%radius)//' m')
+      if (.not. thermal%centrifugal) return
+      call check_speed('operation', 'speed_rpm', scene%operation%speed_rpm)
+      if (sweep%parameter /= sweep_speed) return
+      do i = 1, size(sweep%values)
+        call check_speed('sweep', 'values', sweep%values(i), i)
+      end do
+    end associate
+
+  contains
+
+    !> Complains about a speed at which the shaft fills the bearing.
+    subroutine check_speed(group, key, speed_rpm, point)
+      character(len=*), intent(in) :: group, key
+      real(wp), intent(in) :: speed_rpm !! [rpm]
+      integer, intent(in), optional :: point
+      real(wp) :: growth !! [m]
+
+      growth = scene%thermal%growth(scene%bearing%radius, angular_speed(speed_rpm))
+      call keys%rule(group, key, growth >= scene%bearing%clearance, 'makes the shaft grow by '// &
+                     text(growth, 4)//' m, which must be less than the clearance of '// &
+                     text(scene%bearing%clearance)//' m', point)
+    end subroutine check_speed
+  end subroutine check_growth
 
   !> What the asperities load must have equations of its own, and at rest they must carry something.
   subroutine check_shaft_contact(keys, scene)
@@ -112,8 +234,7 @@ contains
                      join(pack(needed, missing), ', '))
       half = model%half_width == half_width_yes
       call keys%rule('model', 'half_width', half .and. &
-                     .not. is_symmetric(scene%operation, scene%sweep), &
-                     'needs a bearing without tilt')
+                     tilts(scene%operation, scene%sweep), 'needs a bearing without tilt')
       call keys%rule('model', 'half_width', half .and. mod(elements, 2) /= 0, 'needs an even '// &
                      'number of axial_elements in &mesh, not '//text(elements))
       call check_lifts('leading_edge_lift', size(scene%operation%leading_edge_lift))
@@ -150,14 +271,19 @@ contains
     end subroutine check_lifts
   end subroutine check_model
 
-  !> Whether no point of the scene is tilted, so that one half mirrors the other.
-  pure logical function is_symmetric(operation, sweep) result(symmetric)
-    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
-    type(sweep_case_type), intent(in) :: sweep !! what `&sweep` asks for
-
-    symmetric = .not. any(abs(operation%tilt) > 0.0_wp) .and. .not. operation%tilt_is_sought .and. &
-                sweep%parameter /= sweep_tilt_x .and. sweep%parameter /= sweep_tilt_y
+  !> Whether one half mirrors the other: no point is tilted, and heat leaves both ends alike.
+  pure logical function is_symmetric(scene) result(symmetric)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    symmetric = .not. tilts(scene%operation, scene%sweep) .and. scene%thermal%mirrors()
   end function is_symmetric
+
+  !> Whether a point of the scene is tilted.
+  pure logical function tilts(operation, sweep)
+    type(operation_case_type), intent(in) :: operation
+    type(sweep_case_type), intent(in) :: sweep
+    tilts = any(abs(operation%tilt) > 0.0_wp) .or. operation%tilt_is_sought .or. &
+            sweep%parameter == sweep_tilt_x .or. sweep%parameter == sweep_tilt_y
+  end function tilts
 
   !> A rigid pad leaves the shaft no more room than the clearance, at both ends of the bearing.
   subroutine check_rigid_position(keys, scene)

@@ -500,7 +500,7 @@ contains
     words = ''
     if (sequence%is_of_many()) return
     if (.not. is_bearing(scene%general%analysis) .or. scene%model%foil /= foil_shell .or. &
-        .not. is_symmetric(scene%operation, scene%sweep)) return
+        .not. is_symmetric(scene)) return
     beams = scene
     beams%model%foil = foil_beam
     beams%solver%stability = .false.

@@ -61,7 +61,7 @@ module gfb_thermal_case
     real(wp) :: shaft_youngs_modulus = 0.0_wp       !! [Pa]
     real(wp) :: shaft_poissons_ratio = 0.0_wp       !! [1]
   contains
-    procedure :: mirrors, has_way_out
+    procedure :: mirrors, has_way_out, growth
   end type thermal_case_type
 
 contains
@@ -214,6 +214,21 @@ contains
         + gas/height
     end associate
   end function estimated_bump_conductance
+
+  !> Growth of the shaft's radius with its speed; 0 where it does not grow [m].
+  !>
+  !> $$ u = \frac{\rho \Omega^2 R}{4 E} \left[ (1 - \nu) R^2 + (3 + \nu) R_i^2 \right] $$
+  pure real(wp) function growth(self, radius, speed)
+    class(thermal_case_type), intent(in) :: self !! what `&thermal` asks for
+    real(wp), intent(in) :: radius !! R [m]
+    real(wp), intent(in) :: speed  !! Omega [rad/s]
+
+    growth = 0.0_wp
+    if (self%centrifugal) growth = self%shaft_density*speed**2*radius/ &
+      (4.0_wp*self%shaft_youngs_modulus)*((1.0_wp - self%shaft_poissons_ratio)*radius**2 + &
+                                          (3.0_wp + self%shaft_poissons_ratio)* &
+                                          self%shaft_inner_radius**2)
+  end function growth
 
   !> Whether both halves of the width are alike.
   pure logical function mirrors(self)

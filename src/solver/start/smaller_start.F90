@@ -83,7 +83,7 @@ contains
     type(operating_point_type), intent(in) :: target
 
     can = meshes_foils(scene%model%foil) .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
-      modulo(plan%axial, 2) == 0 .and. .not. any(abs(target%place(4:5)) > 0.0_wp)
+      modulo(plan%axial, 2) == 0 .and. scene%thermal%mirrors() .and. .not. any(abs(target%place(4:5)) > 0.0_wp)
   end function can_halve
 
   !> Few rows, or else half the stations of film and top foil; a fixed shaft, which cannot give way where the foil deflects

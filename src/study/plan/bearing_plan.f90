@@ -231,12 +231,14 @@ contains
     logical :: symmetric
 
     if (scene%model%half_width == half_width_auto) then
-      symmetric = is_symmetric(scene%operation, scene%sweep) .and. &
+      symmetric = is_symmetric(scene) .and. &
                   .not. scene%rotor%distance_in_time > 0.0_wp
       plan%half = symmetric .and. modulo(plan%axial, 2) == 0
       plan%half = plan%half .and. strips_mirror(scene)
       if (.not. strips_mirror(scene)) then
         call log%line('width: whole, because the strips do not mirror each other')
+      else if (.not. scene%thermal%mirrors()) then
+        call log%line('width: whole, because heat leaves one end otherwise than the other')
       else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')
       else if (symmetric) then

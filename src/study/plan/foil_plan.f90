@@ -36,7 +36,7 @@ contains
     if (scene%model%half_width == half_width_auto) then
       half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil)
       if (scene%general%analysis /= analysis_strip) then
-        half = half .and. is_symmetric(scene%operation, scene%sweep)
+        half = half .and. is_symmetric(scene)
       end if
     end if
     if (scene%solver%linear_solver == linear_solver_iterative) then
