@@ -151,6 +151,52 @@ module gfb_result_table
     result_type('maximum_solid_contact_pressure', 'Pa', number, bearing, &
       'largest pressure of the solid contact', 'the same: largest pressure of the asperities')]
 
+  type(result_type), parameter :: heats(*) = [ &
+    result_type('film_temperature', 'K', number, bearing, 'mean of the gas in the film', &
+      'with `&thermal`: mean over the gas in the film', asked=.true.), &
+    result_type('film_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
+    result_type('maximum_film_temperature', 'K', number, bearing, &
+      'largest mean over the gap', asked=.true., nodal=.true.), &
+    result_type('top_foil_temperature', 'K', number, bearing, 'mean of the top foil', &
+      asked=.true.), &
+    result_type('top_foil_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
+    result_type('maximum_top_foil_temperature', 'K', number, bearing, &
+      'largest of the top foil', asked=.true., nodal=.true.), &
+    result_type('shaft_temperature', 'K', number, bearing, &
+      'of the shaft under the film', 'of the shaft; of one that conducts along the axis the mean', &
+      asked=.true.), &
+    result_type('sleeve_temperature', 'K', number, bearing, 'of the sleeve', asked=.true.), &
+    result_type('inlet_temperature', 'K', number, bearing, &
+      'of the gas that feeds the leading edge', &
+      'of the gas that feeds the leading edge; of several pads the mean', asked=.true.), &
+    result_type('inlet_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
+    result_type('cooling_outlet_temperature', 'K', number, bearing, &
+      'of the cooling gas where it leaves', asked=.true.), &
+    result_type('heat_to_shaft', 'W', number, bearing, 'from the film into the shaft', &
+      asked=.true.), &
+    result_type('heat_to_shaft_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_to_top_foil', 'W', number, bearing, 'from the film into the top foil', &
+      asked=.true.), &
+    result_type('heat_to_top_foil_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_through_bumps', 'W', number, bearing, &
+      'from the top foil through the bumps into the sleeve', asked=.true.), &
+    result_type('heat_to_channel', 'W', number, bearing, &
+      'from the top foil into the cooling gas', asked=.true.), &
+    result_type('heat_by_gas', 'W', number, bearing, &
+      'that the gas of the film carries out, less what it brings in', asked=.true.), &
+    result_type('heat_by_gas_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('mass_flow_leading_edge', 'kg/s', number, bearing, &
+      'that enters the film over the leading edges', asked=.true.), &
+    result_type('mass_flow_trailing_edge', 'kg/s', number, bearing, &
+      'that leaves it over the trailing edges', asked=.true.), &
+    result_type('mass_flow_sides', 'kg/s', number, bearing, 'that leaves it over the sides', &
+      asked=.true.), &
+    result_type('running_clearance', 'm', number, bearing, &
+      'clearance less what shaft and sleeve grow by temperature and speed', asked=.true.), &
+    result_type('energy_imbalance', '1', number, bearing, &
+      'power less all heat out of the film, over the power', &
+      'power less all heat out of the film, over the power: what the solver left open')]
+
   type(result_type), parameter :: transients(*) = [ &
     result_type('time', 's', number, transient, &
       'computed; eccentricity, forces, film and foils are of its end'), &
@@ -416,6 +462,6 @@ module gfb_result_table
       'sweeps on several groups: how the groups'' stretches fit together')]
 
   type(result_type), parameter, public :: result_rows(*) = [ &
-    every_study, bearings, transients, tilts, judgements, strips, vibrations, costs, sweeps, &
-    ensembles, origins]
+    every_study, bearings, heats, transients, tilts, judgements, strips, vibrations, costs, &
+    sweeps, ensembles, origins]
 end module gfb_result_table

@@ -8,6 +8,7 @@ module gfb_bearing_summary
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
+  use gfb_heat_answer, only: heat_answer_type
   implicit none (type, external)
   private
   public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block, &
@@ -65,6 +66,7 @@ contains
     call add_result(list, 'minimum_pressure', answer%minimum_pressure)
     call add_result(list, 'maximum_peclet', answer%maximum_peclet)
     if (allocated(answer%pad_gap)) call add_pads(answer, list)
+    if (answer%heat%present) call add_heat(answer%heat, list)
     if (answer%has_foils) then
       call add_result(list, 'leading_edge_lift', answer%leading_edge_lift(1))
       call add_result(list, 'leading_edge_lift_edge', answer%leading_edge_lift(2))
@@ -98,6 +100,46 @@ contains
     call add_result(list, 'torque_y_without_suction', answer%force_without_suction(5))
     call add_result(list, 'friction_torque', answer%friction_torque, braking)
   end subroutine add_loads
+
+  !> Adds temperatures, and where the heat goes.
+  subroutine add_heat(heat, list)
+    type(heat_answer_type), intent(in) :: heat
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    integer :: i
+
+    associate (whole => heat%whole)
+      call add_result(list, 'film_temperature', whole%film_temperature)
+      call add_result(list, 'maximum_film_temperature', whole%maximum_film_temperature)
+      call add_result(list, 'top_foil_temperature', whole%top_foil_temperature)
+      call add_result(list, 'maximum_top_foil_temperature', whole%maximum_top_foil_temperature)
+      call add_result(list, 'shaft_temperature', heat%shaft_temperature)
+      call add_result(list, 'sleeve_temperature', heat%sleeve_temperature)
+      call add_result(list, 'inlet_temperature', whole%inlet_temperature)
+      if (heat%has_cooling) then
+        call add_result(list, 'cooling_outlet_temperature', heat%cooling_outlet_temperature)
+      end if
+      call add_result(list, 'heat_to_shaft', whole%to_shaft)
+      call add_result(list, 'heat_to_top_foil', whole%to_top_foil)
+      call add_result(list, 'heat_through_bumps', whole%through_bumps)
+      call add_result(list, 'heat_to_channel', whole%to_channel)
+      call add_result(list, 'heat_by_gas', whole%by_gas)
+      call add_result(list, 'mass_flow_leading_edge', whole%leading)
+      call add_result(list, 'mass_flow_trailing_edge', whole%trailing)
+      call add_result(list, 'mass_flow_sides', whole%sides)
+      call add_result(list, 'running_clearance', heat%running_clearance)
+      call add_result(list, 'energy_imbalance', heat%imbalance)
+    end associate
+    do i = 1, merge(size(heat%pad), 0, size(heat%pad) > 1)
+      associate (pad => heat%pad(i))
+        call add_result(list, 'film_temperature_'//text(i), pad%film_temperature)
+        call add_result(list, 'top_foil_temperature_'//text(i), pad%top_foil_temperature)
+        call add_result(list, 'inlet_temperature_'//text(i), pad%inlet_temperature)
+        call add_result(list, 'heat_to_shaft_'//text(i), pad%to_shaft)
+        call add_result(list, 'heat_to_top_foil_'//text(i), pad%to_top_foil)
+        call add_result(list, 'heat_by_gas_'//text(i), pad%by_gas)
+      end associate
+    end do
+  end subroutine add_heat
 
   !> Adds what each of several pads does.
   subroutine add_pads(answer, list)

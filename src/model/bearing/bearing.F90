@@ -17,7 +17,7 @@ module gfb_bearing
   use gfb_contact_law, only: contact_law_type, friction_force
   use gfb_contact_point, only: add_at_contact
   use gfb_contact_set, only: contact_set_type
-  use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
+  use gfb_petsc_session, only: this_rank, rank_count, sum_over_ranks, largest_over_ranks
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
   use gfb_film_surface, only: translations
@@ -26,6 +26,7 @@ module gfb_bearing
   use gfb_blocks, only: blocks_type, block_type, create_blocks
   use gfb_local_exchange, only: local_exchange_type
   use gfb_pad, only: pad_type
+  use gfb_bearing_heat, only: film_heat_type, number_heat, growth_of, heat_scale, heat_sizes
   implicit none (type)
   private
   public :: begin_contact_path, next_contact, switch_contact, number_unknowns, scale_unknowns
@@ -42,7 +43,8 @@ module gfb_bearing
     logical :: floats = .false.            !! there are some
     logical :: shaft_fixed = .false.       !! there are, but fixed at the point's place
     type(pad_type), allocatable :: pad(:)  !! equal ones
-    type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad; the shaft's are scalars
+    type(film_heat_type) :: heat           !! of film, foils and walls, where it is asked for
+    type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad, heat; the shaft's are scalars
     integer :: unknowns = 0                !! of the bearing, on all ranks
     integer :: first_shaft = 0             !! local unknowns before the shaft's
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
@@ -52,7 +54,7 @@ module gfb_bearing
   contains
     procedure :: get_unknowns, set_unknowns
     procedure :: add_up => add_up_unknowns
-    procedure :: local_size, film_nodes, film_pressure, put_pressure, film_force, is_meshed
+    procedure :: local_size, film_nodes, film_temperature, film_pressure, put_pressure, film_force, is_meshed
     procedure :: has_contacts
     procedure :: gap => bearing_gap
     procedure :: solid_pressure
@@ -133,20 +135,40 @@ contains
   !> Where each pad's film and foil and the shaft stand among all unknowns.
   subroutine number_unknowns(bearing)
     class(bearing_type), intent(inout) :: bearing !! pads and shaft
-    type(block_type) :: block(2*size(bearing%pad))
-    integer :: i
+    type(block_type), allocatable :: block(:)
+    integer :: i, pads
+
+    pads = size(bearing%pad)
+    if (bearing%heat%present) call number_heat(bearing%heat, pads, bearing%pad(1)%whole%rows())
+    allocate (block(merge(3*pads + 1, 2*pads, bearing%heat%present)))
 
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         block(2*i - 1) = block_type(pad%mesh%owned_unknowns, pad%mesh%first_unknown)
         block(2*i) = block_type(pad%foil%owned, pad%foil%global_unknown)
+        if (bearing%heat%present) block(2*pads + i) = block_type(2*pad%mesh%owned_unknowns, pairs_of(pad%mesh%first_unknown))
       end associate
     end do
+    if (bearing%heat%present) then
+      block(3*pads + 1) = block_type(merge(bearing%heat%walls, 0, this_rank() == rank_count() - 1), [(i, i=1, bearing%heat%walls)])
+    end if
     call create_blocks(block, size(bearing%coordinate), bearing%blocks)
     bearing%unknowns = bearing%blocks%border%unknowns
     bearing%last_rank = bearing%blocks%border%last_rank
     bearing%first_shaft = bearing%blocks%first(size(block) + 1)
+    if (.not. bearing%heat%present) return
+    bearing%heat%first = bearing%blocks%first(2*pads + 1:3*pads)
+    bearing%heat%first_wall = bearing%blocks%first(3*pads + 1)
   end subroutine number_unknowns
+
+  !> Numbers of the two temperatures of each node.
+  pure function pairs_of(number) result(pair)
+    integer, intent(in) :: number(:) !! of the nodes, from 1
+    integer :: pair(2*size(number))
+
+    pair(1::2) = 2*number - 1
+    pair(2::2) = 2*number
+  end function pairs_of
 
   !> Sizes of the unknowns.
   subroutine scale_unknowns(bearing)
@@ -159,6 +181,7 @@ contains
         bearing%unknown_scale(pad%first + 1:pad%last) = pad%unknown_scale()
       end associate
     end do
+    if (bearing%heat%present) bearing%unknown_scale(bearing%heat%first(1) + 1:) = heat_scale
     bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%clearance/bearing%levers()
   end subroutine scale_unknowns
 
@@ -172,6 +195,7 @@ contains
     do i = 1, size(self%pad)
       scale(self%pad(i)%first + 1:self%pad(i)%last) = self%pad(i)%equation_scale(point)
     end do
+    if (self%heat%present) scale(self%heat%first(1) + 1:self%first_shaft) = heat_sizes(self%heat, self%pad(1)%film)
     scale(self%first_shaft + 1:) = self%force_scale(point)*self%levers()
   end function equation_scale
 
@@ -204,7 +228,10 @@ contains
 
     do i = 1, size(self%pad)
       associate (pad => self%pad(i))
-        gap(pad%first_node + 1:pad%last_node) = pad%gap(self%position(unknown, point), unknown(pad%first + 1:pad%last))
+        associate (h => gap(pad%first_node + 1:pad%last_node))
+          h = pad%gap(self%position(unknown, point), unknown(pad%first + 1:pad%last))
+          if (self%heat%present) h = h - growth_of(self%heat, pad%mesh%mesh_node, pad%whole%rows(), self%position(unknown, point), unknown)
+        end associate
       end associate
     end do
   end function bearing_gap
@@ -325,6 +352,15 @@ contains
       end associate
     end do
   end function film_pressure
+
+  !> Temperatures at this rank's film nodes, pad by pad, among local unknowns [K].
+  pure function film_temperature(self, unknown, which) result(temperature)
+    class(bearing_type), intent(in) :: self !! the bearing, with heat
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    integer, intent(in) :: which !! 1: of the gas; 2: of the top foil
+    real(wp) :: temperature(self%film_nodes())
+    temperature = unknown(self%heat%first(1) + which:self%heat%first_wall:2)
+  end function film_temperature
 
   !> Puts pressures at this rank's film nodes, pad by pad, among local unknowns.
   pure subroutine put_pressure(self, pressure, unknown)

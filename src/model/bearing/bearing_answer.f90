@@ -10,7 +10,8 @@ module gfb_bearing_answer
                           film_midplane_gap
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_heat_answer, only: heat_answer_type, heat_answer
+  use gfb_bearing_system, only: bearing_system_type, heat_flows
   implicit none (type, external)
   private
   public :: bearing_answer, visit_answer
@@ -43,6 +44,7 @@ module gfb_bearing_answer
     real(wp) :: rough_peclet = 0.0_wp              !! of those where the gap changes quickly [1]
     real(wp) :: maximum_deflection = 0.0_wp        !! of the foil away from the shaft [m]
     type(contact_measures_type) :: contact         !! of the foil, what judges their laws' numbers
+    type(heat_answer_type) :: heat                 !! where the film carries heat
     real(wp), allocatable :: pad_force(:, :)       !! (2, pads) share of each of several pads [N]
     real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
     real(wp), allocatable :: pad_lift(:, :)        !! (2, pads) `leading_edge_lift` of each pad [m]
@@ -58,7 +60,7 @@ contains
     logical, intent(in), optional :: brief
     type(bearing_answer_type) :: answer
 
-    real(wp) :: unknown(bearing%local_size())
+    real(wp), dimension(bearing%local_size()) :: unknown, value
     real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes())
     real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(8 + extremes, size(bearing%pad))
     real(wp) :: total(size(sums, 1)), largest(size(most, 1)), contact(summed, size(bearing%pad))
@@ -95,6 +97,17 @@ contains
     answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
     answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius &
                              + answer%solid_torque
+    if (bearing%heat%present) then
+      value = 0.0_wp
+      associate (here => bearing%position(unknown))
+        answer%heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
+                                  heat_flows(bearing, here, unknown, gap, value))
+      end associate
+      answer%friction_torque = answer%solid_torque
+      if (abs(bearing%point%speed) > 0.0_wp) then
+        answer%friction_torque = answer%heat%whole%power/bearing%point%speed + answer%solid_torque
+      end if
+    end if
     answer%power_loss = answer%friction_torque*bearing%point%speed
     answer%minimum_gap = -largest(1)
     answer%minimum_gap_midplane = -largest(2)

@@ -25,6 +25,11 @@ module gfb_bearing_builder
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_units, only: pi
+  use gfb_gas_law, only: gas_constant, density_table
+  use gfb_heated_film, only: heated_gas_type
+  use gfb_bearing_heat, only: film_heat_type, wall_type
+  use gfb_thermal_case, only: foil_sheet
   use gfb_pad, only: pad_place_type, create_pad_film, move_crests
   use gfb_bearing_system, only: bearing_system_type, create_bearing_system
   use gfb_mesh_dm, only: local_mesh_type
@@ -33,7 +38,7 @@ module gfb_bearing_builder
   use gfb_beam_foil, only: beam_foil_type, create_beam_foil
   implicit none (type)
   private
-  public :: build_bearing, build_opposite, build_like, take_numbers, divide_bearing, film_mesh_of
+  public :: build_bearing, build_opposite, build_like, take_numbers, divide_bearing, film_mesh_of, heat_of
 
 contains
 
@@ -117,10 +122,52 @@ contains
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
+    if (scene%thermal%present) bearing%heat = heat_of(scene)
     call create_bearing_system(bearing, foil, floats, place)
-    bearing%low_fill = scene%model%foil /= foil_shell
+    bearing%low_fill = scene%model%foil /= foil_shell .and. .not. bearing%heat%present
     call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
+
+  !> Heat, as the scene has it.
+  pure function heat_of(scene) result(heat)
+    type(scene_type), intent(in) :: scene !! with heat
+    type(film_heat_type) :: heat !! its unknowns are not numbered
+
+    associate (given => scene%thermal, bearing => scene%bearing, ambient => scene%gas%ambient_pressure)
+      heat%present = .true.
+      heat%gas = heated_gas_type(law=scene%gas%law, reference=given%ambient_temperature, &
+                                 density=scene%gas%molar_mass/(gas_constant*given%ambient_temperature), &
+                                 specific_heat=given%specific_heat, prandtl=given%prandtl, &
+                                 viscosity=scene%gas%viscosity_law, exponent=scene%gas%viscosity_temperature_exponent)
+      heat%gas%law%ambient_pressure = ambient
+      heat%gas%law%viscosity = scene%gas%viscosity
+      if (heat%gas%law%density == density_table) heat%gas%density = 1.0_wp/heat%gas%law%unit
+      heat%ambient = given%ambient_temperature
+      heat%reference = given%reference_temperature
+      heat%carry_over = given%carry_over
+      heat%shaft = wall_type(given%shaft, given%shaft_temperature, given%shaft_conductance, given%shaft_far_temperature, &
+                             bearing%radius*given%shaft_expansion)
+      heat%sleeve = wall_type(given%sleeve, given%sleeve_temperature, given%sleeve_conductance, given%sleeve_far_temperature, &
+                              bearing%radius*given%sleeve_expansion)
+      associate (radius => bearing%radius, inner => given%shaft_inner_radius, nu => given%shaft_poissons_ratio)
+        heat%fin = given%shaft_conductivity*pi*(radius**2 - inner**2)
+        if (given%centrifugal) then
+          heat%centrifugal = given%shaft_density*radius*((1.0_wp - nu)*radius**2 + (3.0_wp + nu)*inner**2)/(4.0_wp*given%shaft_youngs_modulus)
+        end if
+      end associate
+      heat%end_conductance = given%shaft_end_conductance
+      heat%end_temperature = given%shaft_end_temperature
+      heat%sheet = given%top_foil == foil_sheet
+      heat%foil_temperature = given%top_foil_temperature
+      heat%sheet_conductance = given%foil_conductivity*scene%top_foil%thickness
+      heat%bumps = given%bump_conductance
+      heat%channel = given%channel_conductance
+      heat%channel_sleeve = given%channel_sleeve_conductance
+      heat%cooling = given%cooling_flow*given%specific_heat
+      heat%cooling_temperature = given%cooling_temperature
+      heat%arc = bearing%radius*pad_angle(bearing)*real(bearing%pads, wp)
+    end associate
+  end function heat_of
 
   !> The asperities of shaft and foil.
   pure function asperities_of(scene) result(contact)

@@ -14,16 +14,18 @@ module gfb_bearing_system
   use gfb_pad_terms, only: shaft_unknowns_type, pad_state_type, term_type, pad_terms, add_shaft_stiffness
   use gfb_archive, only: archive_type
   use gfb_text, only: text
-  use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number
+  use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number, rank_count
   use gfb_natural_order, only: natural_order_type, visit_vector
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_contact_memory, only: visit_contacts
   use gfb_foil_momentum, only: foil_momentum_type
   use gfb_local_exchange, only: create_exchange
+  use gfb_bearing_heat, only: film_heat_type
+  use gfb_film_heat, only: add_heat_residual, add_heat_flows, add_heat_jacobian
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   implicit none (type)
   private
-  public :: create_bearing_system, number_by, add_of_foil, bearing_order, path_order, visit_bearing, visit_switches
+  public :: create_bearing_system, add_heat, heat_flows, number_by, add_of_foil, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
@@ -54,18 +56,25 @@ contains
     class(foil_model_type), allocatable, intent(inout) :: foil !! under the film
     logical, intent(in) :: floats !! (e_x, e_y) are unknowns, tilts with a rotor of two bearings
     type(pad_place_type), intent(in), optional :: place(:) !! of the pads, which are equal; default: one
-    PetscErrorCode :: ierr
 
     call register_cost_events(bearing%events)
     call complete_pad(foil, bearing%events, bearing%pad(1))
     if (present(place)) call place_pads(place, bearing%pad)
     bearing%clearance = bearing%pad(1)%film%clearance
-    bearing%term = pad_terms()
     bearing%floats = floats
-    bearing%dense_rows = floats
     associate (surface => bearing%pad(1)%film%surface, motions => bearing%pad(1)%film%surface%motions())
       bearing%coordinate = pack(motions, floats .and. (motions <= translations .or. abs(surface%offset) > 0.0_wp))
     end associate
+    call set_up_equations(bearing)
+  end subroutine create_bearing_system
+
+  !> Numbers the unknowns, and makes vectors and matrix.
+  subroutine set_up_equations(bearing)
+    type(bearing_system_type), intent(inout) :: bearing
+    PetscErrorCode :: ierr
+
+    bearing%term = pad_terms(bearing%heat%present)
+    bearing%dense_rows = bearing%floats .or. bearing%heat%present
     call number_unknowns(bearing)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))
@@ -76,7 +85,28 @@ contains
     call scale_unknowns(bearing)
     call bearing%exchange%put(bearing%unknown_scale, bearing%right)
     if (bearing%is_meshed()) call fill_constant(bearing)
-  end subroutine create_bearing_system
+  end subroutine set_up_equations
+
+  !> Gives a bearing without heat its heat: all temperatures begin as that of the gas that is drawn in, all else stays. Whoever
+  !> solves its equations is created anew.
+  subroutine add_heat(bearing, heat)
+    type(bearing_system_type), intent(inout) :: bearing !! at a state
+    type(film_heat_type), intent(in) :: heat !! of it
+    real(wp) :: before(bearing%local_size())
+    real(wp), allocatable :: unknown(:)
+    integer :: pads !! their unknowns
+
+    pads = bearing%first_shaft
+    call bearing%get_unknowns(before)
+    call free_equations(bearing)
+    bearing%heat = heat
+    bearing%low_fill = .false.
+    call set_up_equations(bearing)
+    allocate (unknown(bearing%local_size()), source=heat%ambient)
+    unknown(:pads) = before(:pads)
+    unknown(bearing%first_shaft + 1:) = before(pads + 1:)
+    call bearing%set_unknowns(unknown)
+  end subroutine add_heat
 
   !> Matrix with room for what each row couples.
   subroutine create_bearing_matrix(bearing)
@@ -88,8 +118,25 @@ contains
     do i = 1, size(bearing%pad)
       entries = [entries, bearing%pad(i)%row_entries()]
     end do
+    if (bearing%heat%present) call make_room_for_heat(bearing, entries)
     call bearing%blocks%create_matrix(entries, bearing%jacobian)
   end subroutine create_bearing_matrix
+
+  !> Entries that rows need with heat: as many more nodes' temperatures, and all walls; a wall's row may be full.
+  subroutine make_room_for_heat(bearing, entries)
+    type(bearing_system_type), intent(in) :: bearing
+    PetscInt, allocatable, intent(inout) :: entries(:)
+    integer :: i, around
+
+    around = 2*(2*bearing%pad(1)%whole%order + 1)**2 + bearing%heat%walls
+    entries = entries + int(around, pint)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        entries = [entries, spread(int(2*around + pad%foil%couplings, pint), 1, 2*pad%mesh%owned_unknowns)]
+      end associate
+    end do
+    if (bearing%last_rank) entries = [entries, spread(int(bearing%unknowns, pint), 1, bearing%heat%walls)]
+  end subroutine make_room_for_heat
 
   !> The numbers by which each pad fills the matrix: as if it were the only one.
   subroutine create_numbers(bearing)
@@ -98,7 +145,7 @@ contains
     PetscErrorCode :: ierr
     integer :: i
 
-    if (size(bearing%pad) == 1) return
+    if (size(bearing%pad) == 1 .and. .not. bearing%heat%present) return
     allocate (bearing%numbers(0:size(bearing%pad)))
     do i = 0, size(bearing%pad)
       global = bearing%blocks%global
@@ -122,9 +169,11 @@ contains
   subroutine fill_constant(bearing)
     type(bearing_system_type), intent(inout) :: bearing
     type(pad_state_type) :: state
+    real(wp) :: nothing(bearing%local_size())
     PetscErrorCode :: ierr
     integer :: i, k
 
+    nothing = 0.0_wp
     do i = 1, size(bearing%pad)
       call number_by(bearing, i, bearing%jacobian)
       state%shaft = shaft_of(bearing, i)
@@ -134,6 +183,10 @@ contains
       end do
     end do
     call number_by(bearing, 0, bearing%jacobian)
+    if (bearing%heat%present) then
+      call add_heat_jacobian(bearing%heat, bearing%pad, bearing%point, bearing%coordinate, bearing%first_shaft, nothing, &
+                             nothing, nothing, bearing%last_rank, .true., bearing%jacobian)
+    end if
     if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(shaft_of(bearing, 0), 0.0_wp*hold_stiffness(bearing, bearing%point, .false.), bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
@@ -227,6 +280,7 @@ contains
     logical, intent(out) :: valid !! gap and pressure are positive
 
     real(wp) :: unknown(self%local_size()), value(self%local_size()), gap(self%film_nodes())
+    real(wp), allocatable :: flow(:)
     type(operating_point_type) :: here
     type(pad_state_type) :: of_pad
     PetscErrorCode :: ierr
@@ -240,6 +294,10 @@ contains
     valid = is_open(self, here, unknown, gap)
     if (self%is_meshed()) valid = .not. any_rank(.not. valid) ! a foil's matrix is spread over the ranks
     if (valid) then
+      if (self%heat%present) then
+        flow = heat_flows(self, here, unknown, gap, value)
+        call add_heat_flows(self%heat, self%pad, unknown, flow, self%last_rank, value)
+      end if
       do i = 1, size(self%pad)
         of_pad = state_of(self, i, here, unknown, gap, self%shaft_fixed)
         do k = 1, size(self%term)
@@ -257,6 +315,24 @@ contains
     call self%momentum%add_force(state, residual)
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine evaluate_at
+
+  !> Adds what elements say of film and heat, and tells what those of all ranks take at each local unknown.
+  function heat_flows(self, here, unknown, gap, value) result(flow)
+    class(bearing_system_type), intent(in) :: self !! the bearing, with heat
+    type(operating_point_type), intent(in) :: here !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    real(wp), intent(inout) :: value(:) !! zero before, in SI
+    real(wp), allocatable :: flow(:)
+    PetscErrorCode :: ierr
+
+    call add_heat_residual(self%heat, self%pad, here, unknown, gap, value)
+    flow = value
+    if (rank_count() == 1) return
+    PetscCallA(VecSet(self%left, 0.0_wp, ierr))
+    call self%exchange%add(value, self%left)
+    call self%exchange%get(self%left, flow)
+  end function heat_flows
 
   !> Whether gap and pressure are positive on all ranks.
   logical function is_open_at(self, unknown)
@@ -276,6 +352,7 @@ contains
 
     PetscCallA(PetscLogEventBegin(bearing%events%film, ierr))
     open = .true.
+    if (bearing%heat%present) open = all(unknown(bearing%heat%first(1) + 1:bearing%first_shaft) > 0.0_wp) ! temperatures, too
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), h => gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node))
         open = open .and. pad%film%is_open(unknown(pad%first + 1:pad%first + size(h)), h, point)
@@ -316,7 +393,8 @@ contains
     logical, intent(in) :: fixed !! the shaft is fixed
     Vec, intent(in) :: state    !! scaled
 
-    real(wp) :: unknown(self%local_size()), gap(self%film_nodes())
+    real(wp) :: unknown(self%local_size()), gap(self%film_nodes()), value(self%local_size())
+    real(wp), allocatable :: flow(:)
     type(pad_state_type) :: of_pad
     PetscErrorCode :: ierr
     integer :: i, k
@@ -340,6 +418,12 @@ contains
       end do
     end do
     call number_by(self, 0, self%jacobian)
+    if (self%heat%present) then
+      value = 0.0_wp
+      flow = heat_flows(self, self%position(unknown, point), unknown, gap, value)
+      call add_heat_jacobian(self%heat, self%pad, self%position(unknown, point), self%coordinate, self%first_shaft, unknown, gap, &
+                             flow, self%last_rank, .false., self%jacobian)
+    end if
     if (self%floats .and. self%last_rank) call add_shaft_stiffness(shaft_of(self, 0), hold_stiffness(self, point, fixed), self%jacobian)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
@@ -474,27 +558,36 @@ contains
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_bearing(self)
     class(bearing_system_type), intent(inout) :: self !! the bearing's equations
+
+    if (.not. allocated(self%unknown_scale)) return
+    call free_equations(self)
+    call self%pad(1)%foil%destroy() ! the others' is the same
+    call self%momentum%destroy()
+    deallocate (self%pad)
+  end subroutine destroy_bearing
+
+  !> Frees vectors and matrix.
+  subroutine free_equations(bearing)
+    type(bearing_system_type), intent(inout) :: bearing
     PetscErrorCode :: ierr
     integer :: i
 
-    if (.not. allocated(self%unknown_scale)) return
-    PetscCallA(MatDestroy(self%jacobian, ierr))
-    if (self%is_meshed()) then
-      PetscCallA(MatDestroy(self%constant, ierr))
+    PetscCallA(MatDestroy(bearing%jacobian, ierr))
+    if (bearing%is_meshed()) then
+      PetscCallA(MatDestroy(bearing%constant, ierr))
     end if
-    call self%pad(1)%foil%destroy() ! the others' is the same
-    if (allocated(self%numbers)) then
-      do i = 0, size(self%pad)
-        PetscCallA(ISLocalToGlobalMappingDestroy(self%numbers(i), ierr))
+    if (allocated(bearing%numbers)) then
+      do i = 0, size(bearing%pad)
+        PetscCallA(ISLocalToGlobalMappingDestroy(bearing%numbers(i), ierr))
       end do
+      deallocate (bearing%numbers)
     end if
-    call self%momentum%destroy()
-    call self%exchange%destroy()
-    PetscCallA(VecDestroy(self%right, ierr))
-    PetscCallA(VecDestroy(self%left, ierr))
-    PetscCallA(VecDestroy(self%state, ierr))
-    deallocate (self%pad, self%unknown_scale)
-  end subroutine destroy_bearing
+    call bearing%exchange%destroy()
+    PetscCallA(VecDestroy(bearing%right, ierr))
+    PetscCallA(VecDestroy(bearing%left, ierr))
+    PetscCallA(VecDestroy(bearing%state, ierr))
+    deallocate (bearing%unknown_scale)
+  end subroutine free_equations
 
   !> Order of a bearing's state: of each pad film node by node, foil; shaft. All ranks ask.
   function bearing_order(bearing) result(order)
@@ -509,6 +602,13 @@ contains
     order%total = largest_number(order%number)
     order%number = [((k - 1)*order%total + order%number, k=1, size(bearing%pad))] ! pad by pad
     order%total = largest_number(order%number)
+    if (bearing%heat%present) then
+      film = [(2*film - 1 + (k - 1)*2*largest_number(film), k=1, size(bearing%pad))]
+      order%number = [order%number, reshape(transpose(reshape([film, film + 1], [size(film), 2])), [2*size(film)]) + order%total]
+      order%total = order%total + 2*size(bearing%pad)*bearing%pad(1)%whole%nodes()
+      if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, bearing%heat%walls)]
+      order%total = order%total + bearing%heat%walls
+    end if
     if (.not. bearing%floats) return
     associate (scalars => size(bearing%coordinate))
       if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, scalars)]

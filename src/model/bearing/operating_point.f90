@@ -19,6 +19,7 @@ module gfb_operating_point
     !> Of a shaft that floats, over a step of time, with the gyroscopic torque of a tilt by the
     !> other's rate [N/m], [N m/rad].
     real(wp) :: inertia(shaft_coordinates, shaft_coordinates) = 0.0_wp
+    real(wp) :: growth = 1.0_wp !! part that counts of what temperatures add to the radii [1]
     real(wp) :: edge_pull(most_pads) = 0.0_wp !! fictitious, lifts a free edge of the top foils [N]
     real(wp) :: edge_tension(most_pads) = 0.0_wp !! fictitious, keeps that edge straight [N]
     real(wp) :: edge_hold(most_pads) = 0.0_wp !! fictitious, keeps a pad's edge at a height [N/m]
@@ -54,6 +55,7 @@ contains
     point%speed = first%speed + fraction*(last%speed - first%speed)
     point%load = first%load + fraction*(last%load - first%load)
     point%place = first%place + fraction*(last%place - first%place)
+    point%growth = first%growth + fraction*(last%growth - first%growth)
     point%edge_pull = first%edge_pull + fraction*(last%edge_pull - first%edge_pull)
     point%edge_tension = first%edge_tension + fraction*(last%edge_tension - first%edge_tension)
     point%edge_hold = first%edge_hold + fraction*(last%edge_hold - first%edge_hold)
@@ -69,6 +71,7 @@ contains
     call archive%visit('load', point%load)
     call archive%visit('place', point%place)
     call archive%visit('inertia', point%inertia)
+    call archive%visit('growth', point%growth)
     call archive%visit('edge_pull', point%edge_pull)
     call archive%visit('edge_tension', point%edge_tension)
     call archive%visit('edge_hold', point%edge_hold)

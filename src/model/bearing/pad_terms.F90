@@ -80,14 +80,16 @@ module gfb_pad_terms
 
 contains
 
-  !> All terms, in the order in which they are added.
-  function pad_terms() result(list)
-    type(term_type) :: list(4)
+  !> All terms, in the order in which they are added; a film that carries heat has its own equations.
+  function pad_terms(heated) result(list)
+    logical, intent(in) :: heated !! see `gfb_film_heat`
+    type(term_type) :: list(5)
 
-    list(1) = term_type(.true., film_residual, film_jacobian, film_room, film_column)
-    list(2) = term_type(.true., null(), asperity_jacobian, asperity_room, asperity_column)
-    list(3) = term_type(.false., foil_residual, foil_jacobian, foil_constant, null())
-    list(4) = term_type(.false., edge_residual, edge_jacobian, null(), null())
+    if (.not. heated) list(1) = term_type(.true., film_residual, film_jacobian, film_room, film_column)
+    list(2) = term_type(.true., null(), force_jacobian, force_room, null())
+    list(3) = term_type(.true., null(), asperity_jacobian, asperity_room, asperity_column)
+    list(4) = term_type(.false., foil_residual, foil_jacobian, foil_constant, null())
+    list(5) = term_type(.false., edge_residual, edge_jacobian, null(), null())
   end function pad_terms
 
   !> Their numbers, from 0.
@@ -112,7 +114,7 @@ contains
     end associate
   end subroutine film_residual
 
-  !> Film rows: pressures, what moves the foil, and the shaft; shaft rows: weights of the pressures.
+  !> Film rows: pressures, what moves the foil, and the shaft.
   subroutine film_jacobian(pad, state, matrix)
     type(pad_type), intent(in) :: pad
     type(pad_state_type), intent(in) :: state
@@ -147,7 +149,6 @@ contains
         row(1) = node - 1
         call add_block(matrix, row(1:1), row(1:1), [1.0_wp])
       end do
-      call add_shaft_weights(film, state%shaft, state%fixed, 1.0_wp, matrix)
     end associate
   end subroutine film_jacobian
 
@@ -170,8 +171,23 @@ contains
       row(1) = node - 1
       if (pad%mesh%owned(node)) call add_block(matrix, row(1:1), row(1:1), [0.0_wp])
     end do
-    call add_shaft_weights(pad%film, state%shaft, .false., 0.0_wp, matrix)
   end subroutine film_room
+
+  !> Shaft rows: weights of the pressures.
+  subroutine force_jacobian(pad, state, matrix)
+    type(pad_type), intent(in) :: pad
+    type(pad_state_type), intent(in) :: state
+    Mat, intent(in) :: matrix
+    call add_shaft_weights(pad%film, state%shaft, state%fixed, 1.0_wp, matrix)
+  end subroutine force_jacobian
+
+  !> Room for them.
+  subroutine force_room(pad, state, matrix)
+    type(pad_type), intent(in) :: pad
+    type(pad_state_type), intent(in) :: state
+    Mat, intent(in) :: matrix
+    call add_shaft_weights(pad%film, state%shaft, .false., 0.0_wp, matrix)
+  end subroutine force_room
 
   !> The film by the rigid gap.
   subroutine film_column(pad, state, coordinate, column, of_shaft)

@@ -55,6 +55,10 @@ contains
     if (bearing%pad(1)%contact%present) then
       call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
     end if
+    if (bearing%heat%present) then
+      call add('temperature', 'K', 'at which the gas carries its heat', bearing%film_temperature(unknown, 1))
+      call add('top_foil_temperature', 'K', 'of the top foil', bearing%film_temperature(unknown, 2))
+    end if
     if (pads > 1) then
       call add('pad', '1', 'number of the pad', &
                [(spread(real(i, wp), 1, size(bearing%pad(i)%film%angle)), i=1, size(bearing%pad))])

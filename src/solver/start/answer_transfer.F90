@@ -85,7 +85,53 @@ contains
       if (bearing%floats) unknown(bearing%first_shaft + 1:) = small%eccentricity()
       call bearing%set_unknowns(unknown)
     end if
+    if (bearing%heat%present) call transfer_heat(small, coarse, around, share, bearing)
   end subroutine transfer_answer
+
+  !> Temperatures of the smaller system, or that of what is drawn in where it has none.
+  subroutine transfer_heat(small, coarse, around, share, bearing)
+    type(bearing_system_type), intent(in) :: small
+    real(wp), intent(in) :: coarse(:)   !! its local unknowns, in SI
+    integer, intent(in) :: around(:, :) !! see `film_field`
+    real(wp), intent(in) :: share(:, :)
+    type(bearing_system_type), intent(inout) :: bearing !! with all but its temperatures
+    real(wp) :: unknown(bearing%local_size())
+    type(places_type) :: across
+    integer :: which, i
+
+    call bearing%get_unknowns(unknown)
+    associate (heat => bearing%heat, from => small%heat)
+      unknown(heat%first(1) + 1:bearing%first_shaft) = heat%ambient
+      if (from%present) then
+        do which = 1, 2
+          unknown(heat%first(1) + which:heat%first_wall:2) = film_field(small, small%film_temperature(coarse, which), around, share)
+        end do
+        across = find_places(small%pad(1)%whole%row_axial, bearing%pad(1)%whole%row_axial, small%pad(1)%whole%half)
+        associate (wall => coarse(from%first_wall + 1:from%first_wall + from%walls), &
+                   here => unknown(heat%first_wall + 1:heat%first_wall + heat%walls))
+          do i = 1, heat%shafts
+            here(i) = line_between(wall(from%shaft_wall(across%low(i))), wall(from%shaft_wall(across%low(i) + 1)), across%share(i))
+          end do
+          here(heat%sleeve_wall()) = wall(from%sleeve_wall())
+          do i = 1, size(bearing%pad)
+            here(heat%inlet_wall(i)) = wall(from%inlet_wall(i))
+          end do
+          do i = 1, merge(heat%channels, 0, from%channels > 0)
+            here(heat%channel_wall(i)) = line_between(wall(from%channel_wall(across%low(i))), wall(from%channel_wall(across%low(i) + 1)), &
+                                                 across%share(i))
+          end do
+        end associate
+      end if
+    end associate
+    call bearing%set_unknowns(unknown)
+  end subroutine transfer_heat
+
+  !> A value between two others.
+  elemental real(wp) function line_between(first, last, share)
+    real(wp), intent(in) :: first, last
+    real(wp), intent(in) :: share !! of the way [1]
+    line_between = first + share*(last - first)
+  end function line_between
 
   !> Where the bearing's film nodes lie in the smaller film; mirrored where that is half.
   subroutine find_film_places(small, bearing, around, share)

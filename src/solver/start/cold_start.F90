@@ -12,11 +12,11 @@ module gfb_cold_start
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, add_heat
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_bearing_builder, only: build_bearing
+  use gfb_bearing_builder, only: build_bearing, heat_of
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
-  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, drop_bearing, count_spent
   use gfb_saved_state, only: saved_state_type
   use gfb_start_list, only: start_pressed
@@ -27,7 +27,7 @@ module gfb_cold_start
   use gfb_model_case, only: foil_rigid
   implicit none (type)
   private
-  public :: start_bearing, start_partitioned
+  public :: start_bearing, start_heated, start_partitioned
 
   integer, parameter :: most_meshes = 24 !! each has half the elements of the next one at least, or lies between two
 
@@ -257,4 +257,44 @@ contains
     call destroy_newton(rigid_newton)
     call rigid%destroy()
   end subroutine start_partitioned
+  !> Finds the answer at ambient temperature, with the shaft as its speed has made it grow, and goes on with heat. Where Newton's
+  !> method does not find that at once, what temperatures add to the shaft and the sleeve comes by steps.
+  !>
+  !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
+  subroutine start_heated(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(bearing_plan_type), intent(in) :: plan          !! its meshes
+    type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
+    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
+    type(path_settings_type), intent(in) :: path_settings !! limits of a path
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    type(bearing_system_type), target, intent(inout) :: bearing !! is built
+    type(newton_type), target, intent(inout) :: newton          !! its solver, is created
+    type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
+    type(scene_type), allocatable :: cold
+    integer :: iterations, factorizations, before
+
+    cold = scene
+    cold%thermal%present = .false.
+    associate (heat => heat_of(scene))
+      cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
+      call start_bearing(cold, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+      if (allocated(error)) return
+      if (.not. report%converged()) return
+      call log%stage('heat')
+      bearing%pad%film%interference = scene%bearing%interference
+      call add_heat(bearing, heat)
+    end associate
+    iterations = newton%iterations
+    factorizations = newton%factorizations
+    before = newton%factorizations_before
+    call destroy_newton(newton)
+    call create_newton(newton, bearing, 'bearing_', newton_settings, log)
+    newton%iterations = iterations
+    newton%factorizations = factorizations
+    newton%factorizations_before = before
+    bearing%point%growth = 0.0_wp
+    call follow_path(bearing, newton, target, 1.0_wp, path_settings, report)
+  end subroutine start_heated
 end module gfb_cold_start

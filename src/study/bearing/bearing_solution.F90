@@ -19,7 +19,7 @@ module gfb_bearing_solution
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_cold_start, only: start_bearing, start_partitioned
+  use gfb_cold_start, only: start_bearing, start_heated, start_partitioned
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: save_bearing, restore_bearing
@@ -52,7 +52,7 @@ module gfb_bearing_solution
   contains
     procedure :: set_up, start, resume, move_to, approach_limit, target_at, watch, save
     procedure :: save_stopped, explain, stop_short, drop_helpers, destroy
-    procedure, private :: take_value, follow, may_start_anew, start_anew, end_search
+    procedure, private :: take_value, follow, may_start_anew, start_anew, search, end_search
   end type bearing_solution_type
 
 contains
@@ -109,8 +109,7 @@ contains
       call start_partitioned(self%here, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, &
                              self%newton, self%sides, report, error)
     else
-      call start_bearing(self%here, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, self%newton, &
-                         report, error)
+      call self%search(self%here, target, report, error)
     end if
     if (allocated(error)) return
     call self%end_search(report)
@@ -225,10 +224,28 @@ contains
     scene = self%here
     scene%operation = operation_at(scene%operation, scene%sweep, point)
     call self%bound%begin(scene%solver%maximum_factorizations)
-    call start_bearing(scene, self%plan, operating_point(scene%operation), self%tolerances, self%path, &
-                       self%context%log, self%bearing, self%newton, report, error)
+    call self%search(scene, operating_point(scene%operation), report, error)
     if (.not. allocated(error)) call self%end_search(report)
   end subroutine start_anew
+
+  !> Searches the answer from nothing.
+  !>
+  !> Fails when the mesh cannot be cut.
+  subroutine search(self, scene, target, report, error)
+    class(bearing_solution_type), target, intent(inout) :: self !! the solution
+    type(scene_type), intent(in) :: scene !! with the present values
+    type(operating_point_type), intent(in) :: target !! of it
+    type(path_report_type), intent(out) :: report !! of the search
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+
+    if (scene%thermal%present) then
+      call start_heated(scene, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, self%newton, report, &
+                        error)
+    else
+      call start_bearing(scene, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, self%newton, report, &
+                         error)
+    end if
+  end subroutine search
 
   !> What follows a search from nothing is not bounded; one that gave up says so.
   subroutine end_search(self, report)

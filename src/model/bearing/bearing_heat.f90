@@ -1,0 +1,145 @@
+!> The heat of a bearing in numbers: its walls, and where its unknowns stand.
+!>
+!> Unknowns of a film node are the temperatures of gas and top foil. Those of all walls stand behind
+!> those of all pads, on the last rank: of the shaft (one, or one a row), the sleeve, each pad's
+!> slit, the channel along the bumps (one a row).
+module gfb_bearing_heat
+  use gfb_kinds, only: wp
+  use gfb_heated_film, only: heated_gas_type
+  use gfb_gas_film, only: gas_film_type
+  use gfb_operating_point, only: operating_point_type
+  implicit none (type, external)
+  private
+  public :: number_heat, growth_of, heat_sizes, row_of
+
+  integer, parameter, public :: wall_given = 1, wall_conductance = 2, wall_fin = 3
+  real(wp), parameter, public :: heat_scale = 100.0_wp !! size of a temperature [K]
+
+  !> A wall of one temperature.
+  type, public :: wall_type
+    integer :: kind = wall_given
+    real(wp) :: temperature = 0.0_wp !! where it is given [K]
+    real(wp) :: conductance = 0.0_wp !! to what is far [W/K]
+    real(wp) :: far = 0.0_wp         !! temperature there [K]
+    real(wp) :: growth = 0.0_wp      !! of its radius by its temperature [m/K]
+  end type wall_type
+
+  !> What a bearing's heat depends on, and where its unknowns stand.
+  type, public :: film_heat_type
+    logical :: present = .false.
+    type(heated_gas_type) :: gas
+    real(wp) :: ambient = 0.0_wp     !! T_a, of the gas that is drawn in [K]
+    real(wp) :: reference = 0.0_wp   !! at which the clearance is given [K]
+    real(wp) :: carry_over = 0.0_wp  !! part of what leaves a pad that enters the next [1]
+    type(wall_type) :: shaft, sleeve
+    real(wp) :: fin = 0.0_wp         !! k A of a shaft that conducts along [W m/K]
+    real(wp) :: end_conductance(2) = 0.0_wp !! of its ends, at -L/2 and L/2 [W/K]
+    real(wp) :: end_temperature(2) = 0.0_wp !! beyond them [K]
+    real(wp) :: centrifugal = 0.0_wp !! growth of the shaft's radius by its speed squared [m s2]
+    logical :: sheet = .true.        !! the top foil conducts, else its temperature is given
+    real(wp) :: foil_temperature = 0.0_wp !! then [K]
+    real(wp) :: sheet_conductance = 0.0_wp !! k_f t_f [W/K]
+    real(wp) :: bumps = 0.0_wp       !! foil to sleeve [W/(m2 K)]
+    real(wp) :: channel = 0.0_wp        !! foil to the cooling gas [W/(m2 K)]
+    real(wp) :: channel_sleeve = 0.0_wp !! sleeve to it [W/(m2 K)]
+    real(wp) :: cooling = 0.0_wp     !! w c_p of it [W/K]
+    real(wp) :: cooling_temperature = 0.0_wp !! where it enters [K]
+    real(wp) :: arc = 0.0_wp         !! of all pads together [m]
+    integer, allocatable :: first(:) !! local unknowns of the bearing before those of each pad
+    integer :: first_wall = 0        !! the same of the walls
+    integer :: walls = 0             !! unknowns
+    integer :: shafts = 1, channels = 0 !! unknowns of shaft and channel
+  contains
+    procedure :: shaft_wall, channel_wall, sleeve_wall, inlet_wall
+  end type film_heat_type
+
+contains
+
+  !> Number of the wall that a row of nodes sees of the shaft.
+  pure integer function shaft_wall(self, row) result(wall)
+    class(film_heat_type), intent(in) :: self !! heat
+    integer, intent(in) :: row !! of the film's mesh
+    wall = merge(row, 1, self%shafts > 1)
+  end function shaft_wall
+
+  !> The sleeve's.
+  pure integer function sleeve_wall(self) result(wall)
+    class(film_heat_type), intent(in) :: self !! heat
+    wall = self%shafts + 1
+  end function sleeve_wall
+
+  !> That of a pad's slit.
+  pure integer function inlet_wall(self, pad) result(wall)
+    class(film_heat_type), intent(in) :: self !! heat
+    integer, intent(in) :: pad !! its number
+    wall = self%shafts + 1 + pad
+  end function inlet_wall
+
+  !> That of the channel at a row of nodes.
+  pure integer function channel_wall(self, row) result(wall)
+    class(film_heat_type), intent(in) :: self !! heat
+    integer, intent(in) :: row !! of the film's mesh
+    wall = self%walls - self%channels + row
+  end function channel_wall
+
+  !> Counts the walls' unknowns.
+  pure subroutine number_heat(heat, pads, rows)
+    type(film_heat_type), intent(inout) :: heat !! with its numbers
+    integer, intent(in) :: pads !! of the bearing
+    integer, intent(in) :: rows !! of the film's mesh
+
+    heat%shafts = merge(rows, 1, heat%shaft%kind == wall_fin)
+    heat%channels = merge(rows, 0, heat%cooling > 0.0_wp)
+    heat%walls = heat%shafts + 1 + pads + heat%channels
+  end subroutine number_heat
+
+  !> Sizes of the equations of heat: conduction through a cell of the film, through all of it [W].
+  pure function heat_sizes(heat, film) result(scale)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(gas_film_type), intent(in) :: film  !! of its first pad
+    real(wp) :: scale(heat%first_wall + heat%walls - heat%first(1))
+
+    associate (walls => heat%first_wall - heat%first(1))
+      associate (through => heat_scale*heat%gas%law%viscosity*heat%gas%specific_heat &
+                 /(heat%gas%prandtl*film%clearance), area => heat%arc*film%copies*film%width)
+        scale = through*product(film%cell)
+        if (.not. heat%sheet) scale(2:walls:2) = heat_scale
+        scale(walls + 1:) = through*area
+        if (heat%shaft%kind == wall_given) scale(walls + 1) = heat_scale
+        if (heat%sleeve%kind == wall_given) scale(walls + heat%sleeve_wall()) = heat_scale
+        associate (slits => scale(walls + heat%inlet_wall(1):))
+          slits(:size(heat%first)) = through*area/heat%gas%specific_heat
+        end associate
+      end associate
+    end associate
+  end function heat_sizes
+
+  !> How much temperature and speed take off the gap at nodes of a film [m].
+  pure function growth_of(heat, mesh_node, rows, point, unknown) result(growth)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    integer, intent(in) :: mesh_node(:) !! their numbers in its whole mesh
+    integer, intent(in) :: rows !! of that
+    type(operating_point_type), intent(in) :: point !! whose speed counts
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp) :: growth(size(mesh_node))
+    integer :: node
+
+    associate (wall => unknown(heat%first_wall + 1:heat%first_wall + heat%walls))
+      do node = 1, size(growth)
+        associate (shaft => wall(heat%shaft_wall(row_of(mesh_node(node), rows))), &
+                   sleeve => wall(heat%sleeve_wall()))
+          growth(node) = heat%centrifugal*point%speed**2 &
+            + point%growth*(heat%shaft%growth*(shaft - heat%reference) &
+                            - heat%sleeve%growth*(sleeve - heat%reference))
+        end associate
+      end do
+    end associate
+  end function growth_of
+
+  !> Row of a node in a film's mesh.
+  elemental integer function row_of(mesh_node, rows) result(row)
+    integer, intent(in) :: mesh_node !! its number there
+    integer, intent(in) :: rows      !! of the mesh
+    row = modulo(mesh_node - 1, rows) + 1
+  end function row_of
+end module gfb_bearing_heat

@@ -1,0 +1,543 @@
+#include "gfb_petsc.h"
+!> Heat of a bearing: the gas, the top foil as a conducting sheet, and what lies beyond: shaft, sleeve, the gas that feeds a
+!> slit, cooling gas along the bumps.
+!>
+!> Unknowns of a film node are the gas' and the top foil's temperature; those of all walls follow those of all pads, on the last
+!> rank: of the shaft (one, or one a row), the sleeve, each pad's slit, the channel (one a row). What lies along the axis alone
+!> (a fin, a channel) is weighted over the film's elements, as all else: so energy closes to round-off.
+module gfb_film_heat
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_heated_film, only: heated_gas_type, heated_state_type, heated_residual, heated_jacobian, heated_rows, heated_fields, row_mass, &
+                             row_energy, row_foil, row_shaft, field_pressure, field_gap, field_gas, field_foil, field_shaft
+  use gfb_bearing_heat, only: film_heat_type, wall_given, wall_conductance, row_of
+  use gfb_operating_point, only: operating_point_type
+  use gfb_pad, only: pad_type
+  implicit none (type)
+  private
+  public :: add_heat_residual, add_heat_flows, add_heat_jacobian, state_of, walls_of, feed, is_leading, is_trailing
+
+  !> Flows over the edges of each pad.
+  type :: edge_flow_type
+    real(wp) :: inflow = 0.0_wp      !! over the leading edge [kg/s]
+    real(wp) :: outflow = 0.0_wp     !! over the trailing edge [kg/s]
+    real(wp) :: carried = 0.0_wp     !! its flow of temperature over ambient [kg K/s]
+  end type edge_flow_type
+
+contains
+
+  !> Fields at the nodes of an element.
+  pure function state_of(heat, pad, number, element, point, unknown, gap) result(state)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pad !! of it
+    integer, intent(in) :: number  !! of the pad
+    integer, intent(in) :: element !! of this rank
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp), intent(in) :: gap(:) !! at the pad's nodes [m]
+    type(heated_state_type) :: state
+    integer :: n
+
+    n = size(pad%film%shape, 1)
+    associate (nodes => pad%film%element_nodes(:, element), first => heat%first(number))
+      state%field(:n, field_pressure) = unknown(pad%first + nodes)
+      state%field(:n, field_gap) = gap(nodes)
+      state%field(:n, field_gas) = unknown(first + 2*nodes - 1)
+      state%field(:n, field_foil) = unknown(first + 2*nodes)
+      state%field(:n, field_shaft) = unknown(heat%first_wall + walls_of(heat, pad, nodes, .true.))
+      state%excess = pad%film%excess(element, point)
+    end associate
+  end function state_of
+
+  !> Walls that nodes see: the shaft's, or the channel's (the first one where there is none).
+  pure function walls_of(heat, pad, nodes, of_shaft) result(wall)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pad !! of it
+    integer, intent(in) :: nodes(:)   !! of this rank
+    logical, intent(in) :: of_shaft   !! else of the channel
+    integer :: wall(size(nodes)), i
+
+    do i = 1, size(nodes)
+      wall(i) = 1
+      if (of_shaft) then
+        wall(i) = heat%shaft_wall(row_of(pad%mesh%mesh_node(nodes(i)), pad%whole%rows()))
+      else if (heat%channels > 0) then
+        wall(i) = heat%channel_wall(row_of(pad%mesh%mesh_node(nodes(i)), pad%whole%rows()))
+      end if
+    end do
+  end function walls_of
+
+  !> What foil, shaft, channel and sleeve exchange on an element: rows of foil, shaft, channel, sleeve, columns the same [W/K].
+  pure function exchange_matrix(heat, pad, element) result(matrix)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: element
+    real(wp) :: matrix(3*size(pad%film%shape, 1) + 1, 3*size(pad%film%shape, 1) + 1)
+    real(wp), dimension(size(pad%film%shape, 1), size(pad%film%shape, 1)) :: mass, slopes, along, carried
+    integer :: i, b, n
+
+    n = size(mass, 1)
+    mass = 0.0_wp
+    slopes = 0.0_wp
+    along = 0.0_wp
+    carried = 0.0_wp
+    associate (geometry => pad%film%geometry(element))
+      do i = 1, n
+        associate (shape => pad%film%shape(:, i), x => geometry%gradient(1, :, i), z => geometry%gradient(2, :, i), &
+                   area => geometry%area(i))
+          do b = 1, n
+            mass(:, b) = mass(:, b) + area*shape(b)*shape
+            slopes(:, b) = slopes(:, b) + area*(x(b)*x + z(b)*z)
+            along(:, b) = along(:, b) + area*z(b)*z
+            carried(:, b) = carried(:, b) + area*z(b)*shape
+          end do
+        end associate
+      end do
+    end associate
+    matrix = 0.0_wp
+    associate (copies => pad%film%copies, last => 3*n + 1)
+      matrix(:n, :n) = heat%sheet_conductance*slopes + (heat%bumps + heat%channel)*mass
+      matrix(:n, last) = -heat%bumps*sum(mass, 2)
+      matrix(last, :n) = copies*heat%bumps*sum(mass, 1)
+      matrix(last, last) = -copies*(heat%bumps + heat%channel_sleeve)*sum(mass)
+      if (heat%shafts > 1) matrix(n + 1:2*n, n + 1:2*n) = -copies*heat%fin/heat%arc*along
+      if (heat%channels == 0) then
+        matrix(:n, :n) = matrix(:n, :n) - heat%channel*mass
+        matrix(last, last) = matrix(last, last) + copies*heat%channel_sleeve*sum(mass)
+        return
+      end if
+      matrix(:n, 2*n + 1:3*n) = -heat%channel*mass
+      matrix(2*n + 1:3*n, :n) = -copies*heat%channel*mass
+      matrix(2*n + 1:3*n, 2*n + 1:3*n) = copies*(heat%cooling/heat%arc*carried + (heat%channel + heat%channel_sleeve)*mass)
+      matrix(2*n + 1:3*n, last) = -copies*heat%channel_sleeve*sum(mass, 2)
+      matrix(last, 2*n + 1:3*n) = copies*heat%channel_sleeve*sum(mass, 1)
+    end associate
+  end function exchange_matrix
+
+  !> Local unknowns whose equations an element adds to: mass, energy, foil, shaft, channel, a node each, and sleeve; 0 where it
+  !> is given.
+  pure function element_rows(heat, pad, number, element) result(row)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: number !! of the pad
+    integer, intent(in) :: element
+    integer :: row(5*size(pad%film%shape, 1) + 1), n
+
+    n = size(pad%film%shape, 1)
+    associate (nodes => pad%film%element_nodes(:, element), first => heat%first(number))
+      row(:n) = pad%first + nodes
+      row(n + 1:2*n) = first + 2*nodes - 1
+      row(2*n + 1:3*n) = merge(first + 2*nodes, 0, heat%sheet)
+      row(3*n + 1:4*n) = merge(0, heat%first_wall + walls_of(heat, pad, nodes, .true.), heat%shaft%kind == wall_given)
+      row(4*n + 1:5*n) = merge(heat%first_wall + walls_of(heat, pad, nodes, .false.), 0, heat%channels > 0)
+      row(5*n + 1) = merge(0, heat%first_wall + heat%sleeve_wall(), heat%sleeve%kind == wall_given)
+    end associate
+  end function element_rows
+
+  !> Local unknowns that foil, shaft, channel and sleeve of an element have, in the order of its exchange matrix.
+  pure function element_walls(heat, pad, number, element) result(place)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: number !! of the pad
+    integer, intent(in) :: element
+    integer :: place(3*size(pad%film%shape, 1) + 1)
+
+    associate (nodes => pad%film%element_nodes(:, element))
+      place = [heat%first(number) + 2*nodes, heat%first_wall + walls_of(heat, pad, nodes, .true.), &
+               heat%first_wall + walls_of(heat, pad, nodes, .false.), heat%first_wall + heat%sleeve_wall()]
+    end associate
+  end function element_walls
+
+  !> Adds what the elements of this rank say of film and heat. What flows over the edges follows from the sum of all ranks, see
+  !> `add_heat_flows`.
+  subroutine add_heat_residual(heat, pads, point, unknown, gap, residual)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pads(:)    !! of it
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    real(wp), intent(inout) :: residual(:) !! one a local unknown [SI]
+    real(wp) :: share(size(pads(1)%film%shape, 1), heated_rows), all_rows(5*size(share, 1) + 1)
+    integer :: row(size(all_rows)), i, element, n, k
+
+    n = size(share, 1)
+    do i = 1, size(pads)
+      associate (pad => pads(i), film => pads(i)%film)
+        do element = 1, size(film%element_nodes, 2)
+          call heated_residual(film%geometry(element), film%flow_at(point), heat%gas, &
+                               state_of(heat, pad, i, element, point, unknown, gap(pad%first_node + 1:pad%last_node)), share)
+          row = element_rows(heat, pad, i, element)
+          all_rows(2*n + 1:) = matmul(exchange_matrix(heat, pad, element), unknown(element_walls(heat, pad, i, element)))
+          all_rows(:n) = share(:, row_mass)
+          all_rows(n + 1:2*n) = share(:, row_energy)
+          all_rows(2*n + 1:3*n) = all_rows(2*n + 1:3*n) - share(:, row_foil)
+          all_rows(3*n + 1:4*n) = all_rows(3*n + 1:4*n) + film%copies*share(:, row_shaft)
+          do k = 1, size(row) ! some are the same
+            if (row(k) > 0) residual(row(k)) = residual(row(k)) + all_rows(k)
+          end do
+        end do
+      end associate
+    end do
+  end subroutine add_heat_residual
+
+  !> Adds what flows over the edges and what the walls give away, and puts what is given in its place.
+  !>
+  !> Edges are met weakly: gas that is drawn in has the temperature of what feeds it.
+  subroutine add_heat_flows(heat, pads, unknown, flow, last_rank, residual)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pads(:)    !! of it
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp), intent(in) :: flow(:)    !! at each local unknown of a pressure, what all ranks' elements take there [Pa m3/s]
+    logical, intent(in) :: last_rank   !! this rank owns the walls
+    real(wp), intent(inout) :: residual(:) !! one a local unknown [SI]
+    type(edge_flow_type) :: edge(size(pads))
+    integer :: i, node
+
+    do i = 1, size(pads)
+      associate (pad => pads(i), film => pads(i)%film, first => heat%first(i))
+        do node = 1, size(film%fixed)
+          if (film%fixed(node)) residual(pad%first + node) = 0.0_wp
+          if (.not. pad%mesh%owned(node)) cycle
+          if (film%fixed(node)) then
+            residual(pad%first + node) = unknown(pad%first + node) - film%ambient_pressure
+            associate (inflow => heat%gas%density*flow(pad%first + node), gas => first + 2*node - 1)
+              residual(gas) = residual(gas) + heat%gas%specific_heat*max(inflow, 0.0_wp)* &
+                              (unknown(gas) - feed(heat, pad, i, node, unknown))
+            end associate
+          end if
+          if (.not. heat%sheet) residual(first + 2*node) = unknown(first + 2*node) - heat%foil_temperature
+        end do
+      end associate
+    end do
+    edge = edge_flows(heat, pads, unknown, flow)
+    if (last_rank) call add_walls(heat, pads, edge, unknown, residual)
+  end subroutine add_heat_flows
+
+  !> Temperature of the gas that is drawn in at a node of an edge [K].
+  pure real(wp) function feed(heat, pad, number, node, unknown)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pad !! of it
+    integer, intent(in) :: number !! of the pad
+    integer, intent(in) :: node   !! of this rank
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+
+    feed = heat%ambient
+    if (is_leading(pad, node)) feed = unknown(heat%first_wall + heat%inlet_wall(number))
+  end function feed
+
+  !> Whether a node lies on the edge where the motion enters.
+  elemental logical function is_leading(pad, node) result(is)
+    type(pad_type), intent(in) :: pad !! of the bearing
+    integer, intent(in) :: node       !! of this rank
+    is = .not. pad%whole%periodic .and. pad%mesh%mesh_node(node) <= pad%whole%rows()
+  end function is_leading
+
+  !> Whether it lies on the edge where the motion leaves.
+  elemental logical function is_trailing(pad, node) result(is)
+    type(pad_type), intent(in) :: pad !! of the bearing
+    integer, intent(in) :: node       !! of this rank
+    is = .not. pad%whole%periodic .and. pad%mesh%mesh_node(node) > pad%whole%nodes() - pad%whole%rows()
+  end function is_trailing
+
+  !> Flows over leading and trailing edges, over all ranks.
+  function edge_flows(heat, pads, unknown, flow) result(edge)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pads(:)
+    real(wp), intent(in) :: unknown(:), flow(:)
+    type(edge_flow_type) :: edge(size(pads))
+    real(wp) :: sums(3, size(pads))
+    integer :: i, node
+
+    sums = 0.0_wp
+    do i = 1, size(pads)
+      associate (pad => pads(i))
+        do node = 1, size(pad%film%fixed)
+          if (.not. pad%mesh%owned(node)) cycle
+          associate (inflow => pad%film%copies*heat%gas%density*flow(pad%first + node))
+            if (is_leading(pad, node)) sums(1, i) = sums(1, i) + max(inflow, 0.0_wp)
+            if (is_trailing(pad, node)) then
+              sums(2, i) = sums(2, i) + max(-inflow, 0.0_wp)
+              sums(3, i) = sums(3, i) + max(-inflow, 0.0_wp)*(unknown(heat%first(i) + 2*node - 1) - heat%ambient)
+            end if
+          end associate
+        end do
+      end associate
+    end do
+    sums = reshape(sum_over_ranks(reshape(sums, [size(sums)])), shape(sums))
+    edge = [(edge_flow_type(sums(1, i), sums(2, i), sums(3, i)), i=1, size(pads))]
+  end function edge_flows
+
+  !> Whether more than enough leaves the pad before to feed a pad: then its slit has that temperature.
+  elemental logical function is_flooded(heat, edge, before) result(is)
+    type(film_heat_type), intent(in) :: heat
+    type(edge_flow_type), intent(in) :: edge, before
+    is = heat%carry_over*before%outflow > edge%inflow
+  end function is_flooded
+
+  !> Adds what walls give away, and the mixing in slits.
+  pure subroutine add_walls(heat, pads, edge, unknown, residual)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pads(:)
+    type(edge_flow_type), intent(in) :: edge(:)
+    real(wp), intent(in) :: unknown(:)
+    real(wp), intent(inout) :: residual(:)
+    integer :: i, before, end_row
+
+    associate (wall => unknown(heat%first_wall + 1:heat%first_wall + heat%walls), first => heat%first_wall, &
+               copies => pads(1)%film%copies)
+      associate (equation => residual(first + 1:first + heat%walls))
+        select case (heat%shaft%kind)
+        case (wall_given)
+          equation(1) = wall(1) - heat%shaft%temperature
+        case (wall_conductance)
+          equation(1) = equation(1) - heat%shaft%conductance*(wall(1) - heat%shaft%far)
+        case default
+          do i = merge(2, 1, copies > 1.0_wp), 2 ! of half the width one end
+            end_row = merge(1, heat%shafts, i == 1)
+            equation(end_row) = equation(end_row) - copies*heat%end_conductance(i)*(wall(end_row) - heat%end_temperature(i))
+          end do
+        end select
+        associate (sleeve => heat%sleeve_wall())
+          if (heat%sleeve%kind == wall_given) then
+            equation(sleeve) = wall(sleeve) - heat%sleeve%temperature
+          else
+            equation(sleeve) = equation(sleeve) - heat%sleeve%conductance*(wall(sleeve) - heat%sleeve%far)
+          end if
+        end associate
+        do i = 1, size(pads)
+          before = modulo(i - 2, size(pads)) + 1
+          associate (inlet => heat%inlet_wall(i))
+            if (.not. feeds(edge(i))) then
+              equation(inlet) = wall(inlet) - heat%ambient
+            else if (is_flooded(heat, edge(i), edge(before))) then
+              equation(inlet) = edge(before)%outflow*(wall(inlet) - heat%ambient) - edge(before)%carried
+            else
+              equation(inlet) = edge(i)%inflow*(wall(inlet) - heat%ambient) - heat%carry_over*edge(before)%carried
+            end if
+          end associate
+        end do
+        if (heat%channels > 0) then
+          associate (mouth => heat%channel_wall(1))
+            equation(mouth) = equation(mouth) + heat%cooling*(wall(mouth) - heat%cooling_temperature)
+          end associate
+        end if
+      end associate
+    end associate
+  end subroutine add_walls
+
+  !> Whether anything flows over the leading edge.
+  elemental logical function feeds(edge)
+    type(edge_flow_type), intent(in) :: edge
+    feeds = edge%inflow > tiny(1.0_wp)/epsilon(1.0_wp)
+  end function feeds
+
+  !> Adds the derivatives of all that.
+  subroutine add_heat_jacobian(heat, pads, point, coordinate, first_shaft, unknown, gap, flow, last_rank, room, matrix)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pads(:)    !! of it
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    integer, intent(in) :: coordinate(:)     !! of the shaft, those that are unknowns
+    integer, intent(in) :: first_shaft !! local unknowns before them
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    real(wp), intent(in) :: flow(:)    !! see `add_heat_flows`
+    logical, intent(in) :: last_rank   !! this rank owns the walls
+    logical, intent(in) :: room !! zeros alone, where they stand; the state has no values then
+    Mat, intent(in) :: matrix !! by the bearing's local numbers
+    type(edge_flow_type) :: edge(size(pads))
+    real(wp), allocatable :: block(:, :)
+    integer, allocatable :: row(:), column(:)
+    integer :: i, k, n, element, next
+
+    n = size(pads(1)%film%shape, 1)
+    ! a row of the matrix in each column, as PETSc reads it
+    allocate (block(6*n + 1 + size(coordinate), 5*n + 3))
+    if (.not. room) edge = edge_flows(heat, pads, unknown, flow)
+    do i = 1, size(pads)
+      next = modulo(i, size(pads)) + 1
+      associate (pad => pads(i), foil => pads(i)%foil)
+        do element = 1, size(pad%film%element_nodes, 2)
+          associate (nodes => pad%film%element_nodes(:, element))
+            row = [element_rows(heat, pad, i, element), heat%first_wall + heat%inlet_wall(i), heat%first_wall + heat%inlet_wall(next)]
+            column = [pad%first + nodes, heat%first(i) + 2*nodes - 1, element_walls(heat, pad, i, element), &
+                      merge(0, pad%first + foil%source(nodes), foil%source(nodes) == nodes .or. foil%source(nodes) == 0), &
+                      [(first_shaft + k, k=1, size(coordinate))]]
+            block = 0.0_wp
+            if (.not. room) then
+              call put_element(heat, pad, i, element, point, coordinate, unknown, gap(pad%first_node + 1:pad%last_node), block)
+              call put_edges(heat, pads, i, element, edge, unknown, flow, block)
+            end if
+            where (pad%film%fixed(nodes)) row(:n) = 0
+            if (.not. any(is_leading(pad, nodes) .or. is_trailing(pad, nodes))) row(5*n + 2:) = 0
+            call put_block(matrix, row, column, block)
+          end associate
+        end do
+      end associate
+    end do
+    call add_flow_rates(heat, pads, edge, merge(0.0_wp, 1.0_wp, room), flow, matrix)
+    if (last_rank) call add_wall_rates(heat, pads, edge, merge(0.0_wp, 1.0_wp, room), matrix)
+  end subroutine add_heat_jacobian
+
+  !> Derivatives of what an element says: by pressure, gas, foil, shaft, channel, sleeve, what moves the foil, and the shaft's
+  !> coordinates.
+  subroutine put_element(heat, pad, number, element, point, coordinate, unknown, gap, block)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: number !! of the pad
+    integer, intent(in) :: element
+    type(operating_point_type), intent(in) :: point
+    integer, intent(in) :: coordinate(:)
+    real(wp), intent(in) :: unknown(:), gap(:)
+    real(wp), intent(inout) :: block(:, :) !! zero before
+    real(wp) :: by(size(pad%film%shape, 1), heated_rows, size(pad%film%shape, 1), heated_fields)
+    real(wp) :: by_excess(size(by, 1), heated_rows, size(by, 1)), factor(heated_rows)
+    integer :: k, b, c, n, mover
+
+    n = size(by, 1)
+    associate (film => pad%film, foil => pad%foil, nodes => pad%film%element_nodes(:, element))
+      call heated_jacobian(film%geometry(element), film%flow_at(point), heat%gas, &
+                           state_of(heat, pad, number, element, point, unknown, gap), by, by_excess)
+      block(2*n + 1:5*n + 1, 2*n + 1:5*n + 1) = transpose(exchange_matrix(heat, pad, element))
+      factor = 1.0_wp
+      factor(row_foil) = -1.0_wp
+      factor(row_shaft) = film%copies
+      do k = 1, heated_rows
+        by(:, k, :, :) = factor(k)*by(:, k, :, :)
+        associate (part => block(:, (k - 1)*n + 1:k*n), by_gap => by(:, k, :, field_gap))
+          part(:n, :) = part(:n, :) + transpose(by(:, k, :, field_pressure))
+          part(n + 1:2*n, :) = part(n + 1:2*n, :) + transpose(by(:, k, :, field_gas))
+          part(2*n + 1:3*n, :) = part(2*n + 1:3*n, :) + transpose(by(:, k, :, field_foil))
+          part(3*n + 1:4*n, :) = part(3*n + 1:4*n, :) + transpose(by(:, k, :, field_shaft) - point%growth*heat%shaft%growth*by_gap)
+          part(5*n + 1, :) = part(5*n + 1, :) + point%growth*heat%sleeve%growth*sum(by_gap, 2)
+          do b = 1, n
+            mover = merge(b, 5*n + 1 + b, foil%source(nodes(b)) == nodes(b)) ! springs: the pressure itself
+            part(mover, :) = part(mover, :) + foil%rate(nodes(b))*by_gap(:, b)
+            do c = 1, size(coordinate)
+              part(6*n + 1 + c, :) = part(6*n + 1 + c, :) + film%motion(coordinate(c), nodes(b))*by_gap(:, b) &
+                + film%motion_excess(coordinate(c), b, element)*factor(k)*by_excess(:, k, b)
+            end do
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine put_element
+
+  !> What flows over edges changes with the mass equations of their nodes, which stand in the block.
+  subroutine put_edges(heat, pads, number, element, edge, unknown, flow, block)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pads(:)
+    integer, intent(in) :: number !! of the pad
+    integer, intent(in) :: element
+    type(edge_flow_type), intent(in) :: edge(:)
+    real(wp), intent(in) :: unknown(:), flow(:)
+    real(wp), intent(inout) :: block(:, :)
+    integer :: b, n, before, next
+
+    n = size(pads(1)%film%shape, 1)
+    before = modulo(number - 2, size(pads)) + 1
+    next = modulo(number, size(pads)) + 1
+    do b = 1, n
+      associate (pad => pads(number), node => pads(number)%film%element_nodes(b, element), wall => heat%first_wall, &
+                 density => heat%gas%density)
+        if (.not. pad%film%fixed(node)) cycle
+        associate (mass => block(:, b), inflow => flow(pad%first + node), gas => unknown(heat%first(number) + 2*node - 1))
+          if (inflow > 0.0_wp) then
+            block(:, n + b) = block(:, n + b) + heat%gas%specific_heat*density*(gas - feed(heat, pad, number, node, unknown))*mass
+            if (is_leading(pad, node) .and. feeds(edge(number)) .and. .not. is_flooded(heat, edge(number), edge(before))) then
+              block(:, 5*n + 2) = block(:, 5*n + 2) &
+                + pad%film%copies*density*(unknown(wall + heat%inlet_wall(number)) - heat%ambient)*mass
+            end if
+          else if (is_trailing(pad, node) .and. feeds(edge(next))) then
+            if (is_flooded(heat, edge(next), edge(number))) then
+              block(:, 5*n + 3) = block(:, 5*n + 3) - pad%film%copies*density*(unknown(wall + heat%inlet_wall(next)) - gas)*mass
+            else
+              block(:, 5*n + 3) = block(:, 5*n + 3) + pad%film%copies*density*heat%carry_over*(gas - heat%ambient)*mass
+            end if
+          end if
+        end associate
+      end associate
+    end do
+  end subroutine put_edges
+
+  !> Derivatives by temperatures of what flows over the edges, and of what is given.
+  subroutine add_flow_rates(heat, pads, edge, factor, flow, matrix)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pads(:)
+    type(edge_flow_type), intent(in) :: edge(:)
+    real(wp), intent(in) :: factor !! 0: makes room [1]
+    real(wp), intent(in) :: flow(:)
+    Mat, intent(in) :: matrix
+    integer :: i, node, next
+
+    do i = 1, size(pads)
+      next = modulo(i, size(pads)) + 1
+      associate (pad => pads(i), film => pads(i)%film)
+        do node = 1, size(film%fixed)
+          if (.not. pad%mesh%owned(node)) cycle
+          associate (gas => heat%first(i) + 2*node - 1, inflow => factor*heat%gas%density*flow(pad%first + node))
+            if (.not. heat%sheet) call put_block(matrix, [gas + 1], [gas + 1], reshape([factor], [1, 1]))
+            if (.not. film%fixed(node)) cycle
+            call put_block(matrix, [pad%first + node], [pad%first + node], reshape([factor], [1, 1]))
+            associate (gain => heat%gas%specific_heat*max(inflow, 0.0_wp), &
+                       slit => merge(heat%first_wall + heat%inlet_wall(i), 0, is_leading(pad, node)))
+              call put_block(matrix, [gas], [gas, slit], reshape([gain, -gain], [2, 1]))
+            end associate
+            if (.not. is_trailing(pad, node)) cycle
+            associate (share => merge(1.0_wp, 0.0_wp, feeds(edge(next)))*merge(1.0_wp, heat%carry_over, is_flooded(heat, edge(next), edge(i))))
+              call put_block(matrix, [heat%first_wall + heat%inlet_wall(next)], [gas], &
+                             reshape([-share*film%copies*max(-inflow, 0.0_wp)], [1, 1]))
+            end associate
+          end associate
+        end do
+      end associate
+    end do
+  end subroutine add_flow_rates
+
+  !> Derivatives of what the walls give away.
+  subroutine add_wall_rates(heat, pads, edge, factor, matrix)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pads(:)
+    type(edge_flow_type), intent(in) :: edge(:)
+    real(wp), intent(in) :: factor !! 0: makes room [1]
+    Mat, intent(in) :: matrix
+    real(wp) :: rate(heat%walls)
+    integer :: i, before
+
+    rate = 0.0_wp
+    associate (copies => pads(1)%film%copies)
+      select case (heat%shaft%kind)
+      case (wall_given)
+        rate(1) = 1.0_wp
+      case (wall_conductance)
+        rate(1) = -heat%shaft%conductance
+      case default
+        if (.not. copies > 1.0_wp) rate(1) = -heat%end_conductance(1)
+        rate(heat%shafts) = rate(heat%shafts) - copies*heat%end_conductance(2)
+      end select
+      rate(heat%sleeve_wall()) = merge(1.0_wp, -heat%sleeve%conductance, heat%sleeve%kind == wall_given)
+    end associate
+    do i = 1, size(pads)
+      before = modulo(i - 2, size(pads)) + 1
+      associate (inlet => rate(heat%inlet_wall(i)))
+        inlet = edge(i)%inflow
+        if (is_flooded(heat, edge(i), edge(before))) inlet = edge(before)%outflow
+        if (.not. feeds(edge(i))) inlet = 1.0_wp
+      end associate
+    end do
+    if (heat%channels > 0) rate(heat%channel_wall(1)) = heat%cooling
+    do i = 1, heat%walls
+      call put_block(matrix, [heat%first_wall + i], [heat%first_wall + i], reshape([factor*rate(i)], [1, 1]))
+    end do
+  end subroutine add_wall_rates
+
+  !> Adds a block by local numbers, from 1; zero is skipped.
+  subroutine put_block(matrix, row, column, block)
+    Mat, intent(in) :: matrix
+    integer, intent(in) :: row(:), column(:)
+    real(wp), intent(in) :: block(:, :) !! a row of the matrix in each column [SI]
+    PetscErrorCode :: ierr
+    PetscCallA(MatSetValuesLocal(matrix, size(row, 1, pint), int(row - 1, pint), size(column, 1, pint), int(column - 1, pint), reshape(block, [size(block)]), ADD_VALUES, ierr))
+  end subroutine put_block
+end module gfb_film_heat

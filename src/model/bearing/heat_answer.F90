@@ -1,0 +1,151 @@
+#include "gfb_petsc.h"
+!> Temperatures of a bearing, and where its heat goes, over all ranks.
+module gfb_heat_answer
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
+  use gfb_heated_film, only: heated_residual, heated_shear, heated_state_type, heated_rows, row_foil, row_shaft, field_gas, &
+                             field_foil, field_gap, field_shaft
+  use gfb_bearing_heat, only: film_heat_type, growth_of
+  use gfb_film_heat, only: state_of, walls_of, feed, is_leading, is_trailing
+  use gfb_operating_point, only: operating_point_type
+  use gfb_pad, only: pad_type
+  implicit none (type)
+  private
+  public :: heat_answer
+
+  integer, parameter :: sums = 15 !! over elements and nodes of a pad
+
+  !> What one pad, or all together, say of heat.
+  type, public :: heat_share_type
+    real(wp) :: film_temperature = 0.0_wp         !! mean over the gas in the gap [K]
+    real(wp) :: maximum_film_temperature = 0.0_wp !! mean over the gap, at the nodes [K]
+    real(wp) :: top_foil_temperature = 0.0_wp     !! mean [K]
+    real(wp) :: maximum_top_foil_temperature = 0.0_wp !! [K]
+    real(wp) :: inlet_temperature = 0.0_wp        !! of the gas that feeds the slit [K]
+    real(wp) :: power = 0.0_wp                    !! of the film's drag [W]
+    real(wp) :: to_shaft = 0.0_wp, to_top_foil = 0.0_wp !! out of the film [W]
+    real(wp) :: through_bumps = 0.0_wp, to_channel = 0.0_wp !! out of the top foil [W]
+    real(wp) :: by_gas = 0.0_wp                   !! carried out less carried in [W]
+    real(wp) :: leading = 0.0_wp, trailing = 0.0_wp, sides = 0.0_wp !! flow in, out, out [kg/s]
+  end type heat_share_type
+
+  !> All that is said of heat.
+  type, public :: heat_answer_type
+    logical :: present = .false.
+    type(heat_share_type) :: whole
+    type(heat_share_type), allocatable :: pad(:)
+    real(wp) :: shaft_temperature = 0.0_wp, sleeve_temperature = 0.0_wp !! mean [K]
+    logical :: has_cooling = .false.
+    real(wp) :: cooling_outlet_temperature = 0.0_wp !! [K]
+    real(wp) :: running_clearance = 0.0_wp          !! C less all growth, mean [m]
+    real(wp) :: imbalance = 0.0_wp                  !! power less all heat, over the power [1]
+  end type heat_answer_type
+
+contains
+
+  !> Reads the heat off a state.
+  function heat_answer(heat, pads, point, unknown, gap, flow) result(answer)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pads(:)    !! of it
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    real(wp), intent(in) :: flow(:)    !! at each local unknown of a pressure, what all ranks' elements take there [Pa m3/s]
+    type(heat_answer_type) :: answer
+    real(wp) :: sum_of(sums, size(pads)), most(2, size(pads))
+    integer :: i
+
+    do i = 1, size(pads)
+      associate (h => gap(pads(i)%first_node + 1:pads(i)%last_node))
+        call read_pad(heat, pads(i), i, point, unknown, h, flow, sum_of(:, i), most(:, i))
+      end associate
+    end do
+    sum_of = reshape(sum_over_ranks(reshape(sum_of, [size(sum_of)])), shape(sum_of))
+    most = reshape(largest_over_ranks(reshape(most, [size(most)])), shape(most))
+    associate (wall => unknown(heat%first_wall + 1:heat%first_wall + heat%walls))
+      answer%present = .true.
+      answer%pad = [(share_of(sum_of(:, i), most(:, i), wall(heat%inlet_wall(i))), i=1, size(pads))]
+      answer%whole = share_of(sum(sum_of, 2), maxval(most, 2), sum(answer%pad%inlet_temperature)/real(size(pads), wp))
+      associate (all => sum(sum_of, 2))
+        answer%shaft_temperature = all(13)/all(3)
+        answer%running_clearance = pads(1)%film%clearance - all(14)/all(3)
+      end associate
+      answer%sleeve_temperature = wall(heat%sleeve_wall())
+      answer%has_cooling = heat%channels > 0
+      if (answer%has_cooling) answer%cooling_outlet_temperature = wall(heat%channel_wall(heat%channels))
+    end associate
+    associate (whole => answer%whole)
+      answer%imbalance = (whole%power - whole%to_shaft - whole%to_top_foil - whole%by_gas)/max(whole%power, tiny(1.0_wp))
+    end associate
+  end function heat_answer
+
+  !> This rank's sums and largest values of a pad.
+  subroutine read_pad(heat, pad, number, point, unknown, gap, flow, sum_of, most)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: number !! of the pad
+    type(operating_point_type), intent(in) :: point
+    real(wp), intent(in) :: unknown(:), gap(:), flow(:)
+    real(wp), intent(out) :: sum_of(sums) !! see `share_of`; mean of the shaft and of growth, times the area
+    real(wp), intent(out) :: most(:)      !! temperatures of film and top foil [K]
+    type(heated_state_type) :: state
+    real(wp) :: share(size(pad%film%shape, 1), heated_rows), weight(size(pad%film%shape, 1)), growth(size(gap))
+    real(wp), allocatable :: mean(:), foil(:), channel(:)
+    integer :: element, node, n
+
+    n = size(share, 1)
+    sum_of = 0.0_wp
+    most = 0.0_wp
+    growth = growth_of(heat, pad%mesh%mesh_node, pad%whole%rows(), point, unknown)
+    associate (film => pad%film, sleeve => unknown(heat%first_wall + heat%sleeve_wall()))
+      do element = 1, size(film%element_nodes, 2)
+        associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
+          state = state_of(heat, pad, number, element, point, unknown, gap)
+          call heated_residual(geometry, film%flow_at(point), heat%gas, state, share)
+          foil = state%field(:n, field_foil)
+          mean = state%field(:n, field_gas) - (state%field(:n, field_shaft) - foil)/6.0_wp
+          channel = spread(heat%cooling_temperature, 1, n)
+          if (heat%channels > 0) channel = unknown(heat%first_wall + walls_of(heat, pad, nodes, .false.))
+          weight = film%copies*matmul(film%shape, geometry%area)
+          associate (gas => film%copies*matmul(film%shape, geometry%area*(matmul(state%field(:n, field_gap), film%shape) + state%excess(:n))))
+            sum_of(:3) = sum_of(:3) + [dot_product(gas, mean), sum(gas), sum(weight)]
+          end associate
+          sum_of(4) = sum_of(4) + dot_product(weight, foil)
+          sum_of(5:7) = sum_of(5:7) + film%copies*[heated_shear(geometry, film%flow_at(point), heat%gas, state, n), &
+                                                   sum(share(:, row_shaft)), sum(share(:, row_foil))]
+          sum_of(8) = sum_of(8) + heat%bumps*dot_product(weight, foil - sleeve)
+          if (heat%channels > 0) sum_of(9) = sum_of(9) + heat%channel*dot_product(weight, foil - channel)
+          sum_of(13:14) = sum_of(13:14) + [dot_product(weight, state%field(:n, field_shaft)), dot_product(weight, growth(nodes))]
+          most = max(most, [maxval(mean), maxval(foil)])
+        end associate
+      end do
+      do node = 1, size(film%fixed)
+        if (.not. (film%fixed(node) .and. pad%mesh%owned(node))) cycle
+        associate (inflow => film%copies*heat%gas%density*flow(pad%first + node))
+          sum_of(10) = sum_of(10) - heat%gas%specific_heat*inflow* &
+                          merge(feed(heat, pad, number, node, unknown), unknown(heat%first(number) + 2*node - 1), inflow > 0.0_wp)
+          if (is_leading(pad, node)) then
+            sum_of(11) = sum_of(11) + inflow
+          else if (is_trailing(pad, node)) then
+            sum_of(12) = sum_of(12) - inflow
+          else
+            sum_of(15) = sum_of(15) - inflow
+          end if
+        end associate
+      end do
+    end associate
+  end subroutine read_pad
+
+  !> A share from its sums.
+  pure type(heat_share_type) function share_of(sum_of, most, inlet) result(share)
+    real(wp), intent(in) :: sum_of(:), most(:)
+    real(wp), intent(in) :: inlet !! temperature [K]
+
+    share = heat_share_type(film_temperature=sum_of(1)/sum_of(2), maximum_film_temperature=most(1), &
+                            top_foil_temperature=sum_of(4)/sum_of(3), maximum_top_foil_temperature=most(2), &
+                            inlet_temperature=inlet, power=sum_of(5), to_shaft=sum_of(6), to_top_foil=sum_of(7), &
+                            through_bumps=sum_of(8), to_channel=sum_of(9), by_gas=sum_of(10), leading=sum_of(11), &
+                            trailing=sum_of(12), sides=sum_of(15))
+  end function share_of
+end module gfb_heat_answer
