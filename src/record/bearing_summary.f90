@@ -252,6 +252,7 @@ contains
     end if
     call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
                   '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
+    if (answer%heat%present) call show_heat(log, answer%heat)
     call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
     call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
                   text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
@@ -259,6 +260,54 @@ contains
                   text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '// &
                   text(ranks)//' rank(s), BLAS '//blas)
   end subroutine show_closing_block
+
+  !> Where the heat goes, and how hot all is.
+  subroutine show_heat(log, heat)
+    type(run_log_type), intent(in) :: log
+    type(heat_answer_type), intent(in) :: heat
+
+    associate (whole => heat%whole)
+      call log%line('heat             '//share('to the shaft', whole%to_shaft)//', '// &
+                    share('to the top foil', whole%to_top_foil)//', '// &
+                    share('by the gas', whole%by_gas))
+      if (heat%has_cooling) then
+        call log%line('  of top foil    '//share('through the bumps', whole%through_bumps)//', '// &
+                      share('to the cooling gas', whole%to_channel))
+      end if
+      call log%line('temperatures     film '//kelvin(whole%film_temperature)//' (at most '// &
+                    kelvin(whole%maximum_film_temperature)//'), top foil '// &
+                    kelvin(whole%top_foil_temperature)//' ('// &
+                    kelvin(whole%maximum_top_foil_temperature)//'), shaft '// &
+                    kelvin(heat%shaft_temperature)//', sleeve '// &
+                    kelvin(heat%sleeve_temperature)//', inlet '// &
+                    kelvin(whole%inlet_temperature)//' K')
+      if (heat%has_cooling) then
+        call log%line('cooling gas      leaves at '//kelvin(heat%cooling_outlet_temperature)//' K')
+      end if
+      call log%line('clearance        '//engineering_text(heat%running_clearance, 'um', &
+                                                          1.0e6_wp)//' when it runs')
+    end associate
+
+  contains
+
+    !> A flow of heat with its part of the power.
+    function share(words, flow)
+      character(len=*), intent(in) :: words
+      real(wp), intent(in) :: flow !! [W]
+      character(len=:), allocatable :: share
+
+      share = words//' '//engineering_text(flow, 'W', 1.0_wp)
+      if (.not. heat%whole%power > 0.0_wp) return
+      share = share//' ('//text(100.0_wp*flow/heat%whole%power, 3)//' %)'
+    end function share
+
+    !> A temperature to a tenth of a kelvin.
+    function kelvin(temperature) result(words)
+      real(wp), intent(in) :: temperature !! [K]
+      character(len=:), allocatable :: words
+      words = text(0.1_wp*anint(10.0_wp*temperature), 5)
+    end function kelvin
+  end subroutine show_heat
 
   !> What each of several pads does.
   subroutine show_pads(log, answer)

@@ -27,7 +27,6 @@ module gfb_scene_rules
   public :: check_groups, is_symmetric
 
   character(len=*), parameter :: heat = 'thermal' !! the group
-  character(len=*), parameter :: not_computed = '&thermal: heat is not computed yet'
 
 contains
 
@@ -69,6 +68,7 @@ contains
     call keys%rule('solver', 'stability', scene%solver%stability, not_yet)
     call keys%rule('sensitivity', 'parameters', scene%sensitivity%present, not_yet)
     call keys%rule('accuracy', 'quantity', scene%accuracy%present, not_yet)
+    call keys%rule('shaft_contact', 'roughness', scene%shaft_contact%present, not_yet)
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                    "must be 'monolithic' with &thermal")
     call keys%rule('model', 'half_width', scene%model%half_width == half_width_yes .and. &
@@ -77,7 +77,6 @@ contains
     call check_walls(keys, scene%thermal)
     call check_heated_foil(keys, scene)
     call check_growth(keys, scene)
-    if (keys%mistakes() == 0) call keys%complaints%add(keys%line_of_group(heat), not_computed)
   end subroutine check_heat
 
   !> Each wall has the keys of its kind alone, and heat has a way out.

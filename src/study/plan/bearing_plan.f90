@@ -113,6 +113,7 @@ contains
     call log%heading('what the scene needs')
     call show_numbers(scene, log)
     call describe_foil(scene, log)
+    if (scene%thermal%present) call describe_heat(scene, log)
     call choose_width(scene, log, plan)
     call choose_scheme(scene, log, plan)
     if (plan%floats) then
@@ -222,6 +223,20 @@ contains
       end if
     end if
   end subroutine describe_foil
+
+  !> What heat flows through, and what of it is only estimated.
+  subroutine describe_heat(scene, log)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+
+    associate (thermal => scene%thermal)
+      call log%line('heat: gas drawn in at '//text(thermal%ambient_temperature, 5)// &
+                    ' K, molar mass '//text(scene%gas%molar_mass, 6)//' kg/mol')
+      if (.not. thermal%bump_conductance_estimated) return
+      call log%line('  bump_conductance '//text(thermal%bump_conductance, 3)// &
+                    ' W/(m2 K): estimated, a factor of 2 either way; temperatures follow it')
+    end associate
+  end subroutine describe_heat
 
   !> Half or whole width.
   subroutine choose_width(scene, log, plan)

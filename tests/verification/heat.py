@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""Heat of film, foils and walls: an independent solution, the isothermal film, energy that closes, half the width, ranks, pads
+turned around, foils as structures, a restart.
+
+`--long` has all scenes of the reference and biquadratic elements, too."""
+
+import json
+import math
+import pathlib
+import sys
+import tempfile
+
+from gfb_run import Checks, largest_difference, observed_order, solve
+
+REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"thermal.json").read_text(encoding="utf-8"))["scenes"]
+BY_NAME = {scene["name"]: scene for scene in REFERENCE}
+FEW = ("walls_given", "load_growth", "cooled", "shaft_fin")
+TURN = 2.0*math.pi/3.0
+TAKEN = ("force_x", "eccentricity_x", "friction_torque", "heat_to_shaft", "heat_to_top_foil", "heat_by_gas",
+         "film_temperature", "shaft_temperature", "inlet_temperature", "running_clearance", "mass_flow_leading_edge")
+
+
+def changed(groups, **more):
+    """The groups with further keys."""
+    return {name: groups.get(name, {}) | more.get(name, {}) for name in groups | more}
+
+
+def on_mesh(scene, around, across, order=1):
+    """The groups of a scene of the reference on a mesh with so many nodes."""
+    return changed(scene["groups"], mesh={"circumferential_elements": around//order, "axial_elements": across//order},
+                   model={"film_order": order})
+
+
+def errors(scene, answer):
+    """Of forces and positions, torque and flows, temperatures and heats: as the reference's page measures them."""
+    wanted = scene["answers"]
+    force = math.hypot(wanted["force_x"], wanted["force_y"])
+    clearance = scene["groups"]["bearing"]["clearance"]
+    found = {"force": 0.0, "torque": 0.0, "temperature": 0.0, "heat": 0.0, "flow": 0.0}
+    for name, value in wanted.items():
+        difference = abs(answer[name] - value)
+        if name.startswith("force"):
+            kind, size = "force", force
+        elif name.startswith("eccentricity") or name == "running_clearance":
+            kind, size = "force", clearance
+        elif name.startswith("heat"):
+            kind, size = "heat", wanted["power_loss"]
+        elif "temperature" in name:
+            kind, size = "temperature", scene["rise"]
+        elif name.startswith("mass_flow"):
+            kind, size = "flow", wanted["mass_flow_leading_edge"]
+        else:
+            kind, size = "torque", abs(value)
+        found[kind] = max(found[kind], difference/size)
+    return found
+
+
+def check_reference(checks, folder, names, order):
+    limits = {"force": 2.0e-3, "torque": 5.0e-4, "temperature": 5.0e-4, "heat": 1.0e-3, "flow": 1.0e-3}  # flows of the reference are good to 3e-4
+    for name in names:
+        scene = BY_NAME[name]
+        answer = solve(folder, name, on_mesh(scene, 240, 32, order))
+        for kind, error in errors(scene, answer).items():
+            checks.below(f"{name}, order {order}: {kind}", error, limits[kind]*(0.2 if order == 2 and kind != "flow" else 1.0))
+        checks.below(f"{name}: energy", answer["energy_imbalance"], 1.0e-9)
+
+
+def check_order(checks, folder):
+    """Errors of the shaft's temperature and the heats fall with the square of the size of elements."""
+    scene = BY_NAME["load"]
+    coarse, fine = (errors(scene, solve(folder, "order", on_mesh(scene, *mesh))) for mesh in ((60, 8), (120, 16)))
+    for kind in ("force", "temperature", "heat"):
+        order = observed_order(coarse[kind], fine[kind])
+        checks.that(f"order of {kind}: {order:.2f} (at least 1.8)", order > 1.8)
+
+
+def check_isothermal(checks, folder):
+    """Walls at the temperature of the gas, and a gas that conducts without limit."""
+    groups = changed(on_mesh(BY_NAME["walls_given"], 120, 16), thermal={
+        "prandtl": 1.0e-12, "shaft_temperature": 293.15, "top_foil_temperature": 293.15}, gas={"temperature": 293.15})
+    cold = {name: {key: value for key, value in keys.items() if key != "molar_mass"} for name, keys in groups.items()
+            if name != "thermal"}
+    hot, plain = solve(folder, "hot", groups), solve(folder, "plain", cold)
+    for name in ("force_x", "force_y", "friction_torque", "maximum_pressure"):
+        checks.below(f"isothermal: {name}", hot[name]/plain[name] - 1.0, 1.0e-9)
+
+
+def check_couette(checks, folder):
+    """A thin film between walls of the gas' temperature is mu V2/12 k hotter."""
+    groups = changed(on_mesh(BY_NAME["walls_given"], 120, 16),
+                     bearing={"clearance": 8.0e-6}, operation={"eccentricity": (0.0, 0.0)},
+                     gas={"viscosity_law": "constant", "viscosity": 1.85e-5},
+                     thermal={"shaft_temperature": 293.15, "top_foil_temperature": 293.15})
+    speed = groups["operation"]["speed_rpm"]*math.pi/30.0*groups["bearing"]["radius"]
+    rise = 0.71*speed**2/(12.0*1005.0)
+    answer = solve(folder, "couette", groups)
+    checks.below("thin film: its rise less mu V2/12 k [K]", answer["film_temperature"] - 293.15 - rise, 1.0e-3)
+
+
+def check_same(checks, folder):
+    """Half the width, two ranks, pads turned by a third of a turn."""
+    groups = on_mesh(BY_NAME["load_growth"], 96, 12)
+    half = solve(folder, "half", groups)
+    for words, other in (("whole width", solve(folder, "whole", changed(groups, model={"half_width": "no"}))),
+                         ("two ranks", solve(folder, "ranks", groups, 2))):
+        checks.below(words, largest_difference([other[name]/half[name] for name in TAKEN], [1.0]*len(TAKEN)), 1.0e-9)
+    pads = changed(groups, pads={"count": 3, "arc": 2.0, "preload": 0.2}, operation={"load": (-20.0, 0.0)})
+    first = solve(folder, "pads", pads)
+    turned = solve(folder, "turned", changed(pads, operation={"load": (-20.0*math.cos(TURN), -20.0*math.sin(TURN))}))
+    for name in ("power_loss", "shaft_temperature", "inlet_temperature", "heat_by_gas", "minimum_gap"):
+        checks.below(f"load turned by a pad: {name}", turned[name]/first[name] - 1.0, 1.0e-9)
+    checks.below("pads: the heat of each adds up",
+                 sum(first[f"heat_to_top_foil_{pad}"] for pad in (1, 2, 3))/first["heat_to_top_foil"] - 1.0, 1.0e-12)
+    checks.below("pads: energy", first["energy_imbalance"], 1.0e-9)
+
+
+def main():
+    checks = Checks()
+    everything = "--long" in sys.argv
+    with tempfile.TemporaryDirectory() as folder:
+        check_reference(checks, folder, BY_NAME if everything else FEW, 1)
+        if everything:
+            check_reference(checks, folder, BY_NAME, 2)
+        check_order(checks, folder)
+        check_isothermal(checks, folder)
+        check_couette(checks, folder)
+        check_same(checks, folder)
+    checks.close()
+
+
+if __name__ == "__main__":
+    main()
