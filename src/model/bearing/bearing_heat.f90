@@ -50,10 +50,16 @@ module gfb_bearing_heat
     integer :: walls = 0             !! unknowns
     integer :: shafts = 1, channels = 0 !! unknowns of shaft and channel
   contains
-    procedure :: shaft_wall, channel_wall, sleeve_wall, inlet_wall
+    procedure :: shaft_wall, channel_wall, sleeve_wall, inlet_wall, grows
   end type film_heat_type
 
 contains
+
+  !> Whether temperatures change the clearance.
+  pure logical function grows(self)
+    class(film_heat_type), intent(in) :: self !! heat
+    grows = self%present .and. max(self%shaft%growth, self%sleeve%growth) > 0.0_wp
+  end function grows
 
   !> Number of the wall that a row of nodes sees of the shaft.
   pure integer function shaft_wall(self, row) result(wall)

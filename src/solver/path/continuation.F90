@@ -450,12 +450,16 @@ contains
     logical, intent(in) :: spent !! all steps are
     type(path_report_type), intent(inout) :: report
     type(bearing_answer_type) :: answer
+    character(len=:), allocatable :: mover
 
+    mover = 'shaft'
+    if (path%bearing%has_contacts()) mover = 'top foil'
+    if (path%bearing%heat%grows()) mover = 'temperature (thermal runaway) or the '//mover
     answer = bearing_answer(path%bearing)
     if (is_closing(path%bearing) .and. .not. spent) then
       report%ending = path_closes(answer%minimum_gap, report%ending)
     else if (path%folds) then
-      report%ending = path_folds(trim(merge('top foil', 'shaft   ', path%bearing%has_contacts())))
+      report%ending = path_folds(mover)
     else if (is_emptied(path%bearing, answer)) then
       report%ending = path_empties(answer%minimum_pressure, answer%minimum_gap, answer%maximum_peclet)
     end if
