@@ -364,6 +364,7 @@ contains
             column = [pad%first + nodes, heat%first(i) + 2*nodes - 1, element_walls(heat, pad, i, element), &
                       merge(0, pad%first + foil%source(nodes), foil%source(nodes) == nodes .or. foil%source(nodes) == 0), &
                       [(first_shaft + k, k=1, size(coordinate))]]
+            if (heat%channels == 0) column(4*n + 1:5*n) = 0
             block = 0.0_wp
             if (.not. room) then
               call put_element(heat, pad, i, element, point, coordinate, unknown, gap(pad%first_node + 1:pad%last_node), block)
