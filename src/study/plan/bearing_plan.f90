@@ -142,6 +142,7 @@ contains
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
     end if
+    if (scene%thermal%present) plan%memory = heated_memory(scene, nodes, plan%memory)
     call show_memory(plan%memory, log)
     if (scene%sweep%friction_memory) then
       call log%line('sweep: '//text(size(scene%sweep%values))// &
@@ -223,6 +224,17 @@ contains
       end if
     end if
   end subroutine describe_foil
+
+  !> Memory with two temperatures a film node, which factors of MUMPS tie to all else [B].
+  pure real(wp) function heated_memory(scene, nodes, cold) result(bytes)
+    type(scene_type), intent(in) :: scene
+    integer, intent(in) :: nodes !! of a pad
+    real(wp), intent(in) :: cold !! without heat [B]
+    real(wp), parameter :: a_node = 1.0e4_wp, of_shells = 1.5_wp !! [B], [1]
+
+    bytes = cold*merge(of_shells, 1.0_wp, scene%model%foil == foil_shell) &
+      + a_node*real(nodes*scene%bearing%pads, wp)
+  end function heated_memory
 
   !> What heat flows through, and what of it is only estimated.
   subroutine describe_heat(scene, log)
