@@ -157,11 +157,15 @@ module gfb_result_table
     result_type('film_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
     result_type('maximum_film_temperature', 'K', number, bearing, &
       'largest mean over the gap', asked=.true., nodal=.true.), &
+    result_type('maximum_film_temperature_<n>', 'K', number, bearing, 'the same of pad n', &
+      nodal=.true.), &
     result_type('top_foil_temperature', 'K', number, bearing, 'mean of the top foil', &
       asked=.true.), &
     result_type('top_foil_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
     result_type('maximum_top_foil_temperature', 'K', number, bearing, &
       'largest of the top foil', asked=.true., nodal=.true.), &
+    result_type('maximum_top_foil_temperature_<n>', 'K', number, bearing, 'the same of pad n', &
+      nodal=.true.), &
     result_type('shaft_temperature', 'K', number, bearing, &
       'of the shaft under the film', 'of the shaft; of one that conducts along the axis the mean', &
       asked=.true.), &
@@ -180,8 +184,10 @@ module gfb_result_table
     result_type('heat_to_top_foil_<n>', 'W', number, bearing, 'the same of pad n'), &
     result_type('heat_through_bumps', 'W', number, bearing, &
       'from the top foil through the bumps into the sleeve', asked=.true.), &
+    result_type('heat_through_bumps_<n>', 'W', number, bearing, 'the same of pad n'), &
     result_type('heat_to_channel', 'W', number, bearing, &
       'from the top foil into the cooling gas', asked=.true.), &
+    result_type('heat_to_channel_<n>', 'W', number, bearing, 'the same of pad n'), &
     result_type('heat_by_gas', 'W', number, bearing, &
       'that the gas of the film carries out, less what it brings in', asked=.true.), &
     result_type('heat_by_gas_<n>', 'W', number, bearing, 'the same of pad n'), &

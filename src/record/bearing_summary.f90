@@ -132,10 +132,15 @@ contains
     do i = 1, merge(size(heat%pad), 0, size(heat%pad) > 1)
       associate (pad => heat%pad(i))
         call add_result(list, 'film_temperature_'//text(i), pad%film_temperature)
+        call add_result(list, 'maximum_film_temperature_'//text(i), pad%maximum_film_temperature)
         call add_result(list, 'top_foil_temperature_'//text(i), pad%top_foil_temperature)
+        call add_result(list, 'maximum_top_foil_temperature_'//text(i), &
+                        pad%maximum_top_foil_temperature)
         call add_result(list, 'inlet_temperature_'//text(i), pad%inlet_temperature)
         call add_result(list, 'heat_to_shaft_'//text(i), pad%to_shaft)
         call add_result(list, 'heat_to_top_foil_'//text(i), pad%to_top_foil)
+        call add_result(list, 'heat_through_bumps_'//text(i), pad%through_bumps)
+        call add_result(list, 'heat_to_channel_'//text(i), pad%to_channel)
         call add_result(list, 'heat_by_gas_'//text(i), pad%by_gas)
       end associate
     end do

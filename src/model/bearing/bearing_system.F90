@@ -21,7 +21,7 @@ module gfb_bearing_system
   use gfb_foil_momentum, only: foil_momentum_type
   use gfb_local_exchange, only: create_exchange
   use gfb_bearing_heat, only: film_heat_type
-  use gfb_film_heat, only: add_heat_residual, add_heat_flows, add_heat_jacobian
+  use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   implicit none (type)
   private
@@ -39,7 +39,7 @@ module gfb_bearing_system
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
-    procedure :: evaluate_at, linearise_at, is_open_at, shaft_column
+    procedure :: evaluate_at, linearise_at, is_open_at, shaft_column, shaft_flux
     procedure :: settle => settle_bearing
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
@@ -324,15 +324,37 @@ contains
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
     real(wp), intent(inout) :: value(:) !! zero before, in SI
     real(wp), allocatable :: flow(:)
-    PetscErrorCode :: ierr
 
     call add_heat_residual(self%heat, self%pad, here, unknown, gap, value)
-    flow = value
+    flow = summed(self, value)
+  end function heat_flows
+
+  !> Heat that flows into the shaft, at this rank's film nodes, pad by pad [W/m2].
+  function shaft_flux(self, unknown) result(flux)
+    class(bearing_system_type), intent(in) :: self !! the bearing, with heat
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp) :: flux(self%film_nodes())
+    real(wp) :: heat(self%local_size()), area(self%local_size())
+
+    heat = 0.0_wp
+    area = 0.0_wp
+    call add_shaft_flux(self%heat, self%pad, self%position(unknown), unknown, self%gap(unknown), heat, area)
+    flux = self%film_pressure(summed(self, heat))/self%film_pressure(summed(self, area))
+  end function shaft_flux
+
+  !> Local values with what other ranks have at the same unknowns.
+  function summed(self, value) result(total)
+    class(bearing_system_type), intent(in) :: self
+    real(wp), intent(in) :: value(:) !! of this rank's elements, in SI
+    real(wp), allocatable :: total(:)
+    PetscErrorCode :: ierr
+
+    total = value
     if (rank_count() == 1) return
     PetscCallA(VecSet(self%left, 0.0_wp, ierr))
     call self%exchange%add(value, self%left)
-    call self%exchange%get(self%left, flow)
-  end function heat_flows
+    call self%exchange%get(self%left, total)
+  end function summed
 
   !> Whether gap and pressure are positive on all ranks.
   logical function is_open_at(self, unknown)

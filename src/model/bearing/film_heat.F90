@@ -17,7 +17,7 @@ module gfb_film_heat
   use gfb_pad, only: pad_type
   implicit none (type)
   private
-  public :: add_heat_residual, add_heat_flows, add_heat_jacobian, state_of, walls_of, feed, is_leading, is_trailing
+  public :: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian, state_of, walls_of, feed, is_leading, is_trailing
 
   !> Flows over the edges of each pad.
   type :: edge_flow_type
@@ -181,6 +181,32 @@ contains
       end associate
     end do
   end subroutine add_heat_residual
+
+  !> Adds the heat that elements give to the shaft around each film node, and their area there.
+  pure subroutine add_shaft_flux(heat, pads, point, unknown, gap, flux, area)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(pad_type), intent(in) :: pads(:)    !! of it
+    type(operating_point_type), intent(in) :: point !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    real(wp), intent(inout) :: flux(:) !! at the pressures among the local unknowns [W]
+    real(wp), intent(inout) :: area(:) !! the same [m2]
+    real(wp) :: share(size(pads(1)%film%shape, 1), heated_rows)
+    integer :: i, element
+
+    do i = 1, size(pads)
+      associate (pad => pads(i), film => pads(i)%film)
+        do element = 1, size(film%element_nodes, 2)
+          call heated_residual(film%geometry(element), film%flow_at(point), heat%gas, &
+                               state_of(heat, pad, i, element, point, unknown, gap(pad%first_node + 1:pad%last_node)), share)
+          associate (place => pad%first + film%element_nodes(:, element))
+            flux(place) = flux(place) + share(:, row_shaft)
+            area(place) = area(place) + matmul(film%shape, film%geometry(element)%area)
+          end associate
+        end do
+      end associate
+    end do
+  end subroutine add_shaft_flux
 
   !> Adds what flows over the edges and what the walls give away, and puts what is given in its place.
   !>

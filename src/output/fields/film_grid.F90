@@ -58,6 +58,7 @@ contains
     if (bearing%heat%present) then
       call add('temperature', 'K', 'at which the gas carries its heat', bearing%film_temperature(unknown, 1))
       call add('top_foil_temperature', 'K', 'of the top foil', bearing%film_temperature(unknown, 2))
+      call add('heat_flux_shaft', 'W/m2', 'of the heat into the shaft', bearing%shaft_flux(unknown))
     end if
     if (pads > 1) then
       call add('pad', '1', 'number of the pad', &

@@ -170,7 +170,7 @@ WORDS = """## What was changed, and what did not pay
   more. A fifth of a factorization is handing over entries, whatever their precision. Left out.
 - **Orderings with the processor's own kernel** (SkylakeX): AMF saves 0.18 s of analysis of the main job (2.01 to 1.90 s), but its factors take
   1.05 times as long, which a turn over time pays hundreds of times; 1.02 times slower on 95,036 unknowns, 1.22 times on 437,512.
-- **24 rows graded by 4 instead of 32 equal ones**: 1.0 to 1.4 times less CPU time aligned, 1.5 times tilted. Errors against 96 or 128 rows, eight
+- **24 rows graded by 4 instead of 32 equal ones**: 1.0 to 1.6 times less CPU time (once 3.4, by other iterations). Errors against 96 or 128 rows, eight
   bearings (30 to 190 N, long, short, thin foil, three pads, tilted): position, pressure and torque 0.4 to 3 times those of equal rows (half of them
   better, a short and a lightly loaded one worse), the smallest film 0.2 to 1.5 % off instead of 0.06 to 1.5 %, and 4.6 % instead of 0.1 % at 190 N
   (nodes miss the narrow minimum). Equal rows stay the default.
