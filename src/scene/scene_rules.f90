@@ -95,7 +95,7 @@ contains
               "sleeve = 'conductance'")
     call only('top_foil_temperature', thermal%top_foil, foil_given, "top_foil = 'given'")
     call keys%refuse(heat, 'cooling_temperature, channel_conductance, '// &
-                     'channel_sleeve_conductance', .not. keys%meant(heat, 'cooling_flow'), &
+                     'channel_sleeve_conductance', .not. keys%holds(heat, 'cooling_flow'), &
                      'needs cooling_flow')
     known = min(thermal%shaft, thermal%sleeve, thermal%top_foil) > 0 .and. &
       (keys%holds(heat, 'bump_conductance') .or. thermal%bump_conductance_estimated)
@@ -137,7 +137,7 @@ contains
                      (thermal%bump_conductance_estimated .or. keys%holds(heat, &
                      'bump_conductance')), 'must be given: an estimate needs thickness, '// &
                      'half_length, height and pitch in &bump_foil')
-      call keys%rule(heat, 'channel_sleeve_conductance', thermal%cooling_flow > 0.0_wp .and. &
+      call keys%rule(heat, 'channel_sleeve_conductance', keys%holds(heat, 'cooling_flow') .and. &
                      .not. (scene%bump_foil%height%value > 0.0_wp .or. keys%holds(heat, &
                      'channel_sleeve_conductance')), 'must be given: &bump_foil has no height')
     end associate

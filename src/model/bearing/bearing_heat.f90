@@ -95,7 +95,7 @@ contains
     integer, intent(in) :: rows !! of the film's mesh
 
     heat%shafts = merge(rows, 1, heat%shaft%kind == wall_fin)
-    heat%channels = merge(rows, 0, heat%cooling > 0.0_wp)
+    heat%channels = merge(rows, 0, max(heat%cooling, heat%channel, heat%channel_sleeve) > 0.0_wp)
     heat%walls = heat%shafts + 1 + pads + heat%channels
   end subroutine number_heat
 

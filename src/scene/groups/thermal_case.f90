@@ -61,7 +61,7 @@ module gfb_thermal_case
     real(wp) :: shaft_youngs_modulus = 0.0_wp       !! [Pa]
     real(wp) :: shaft_poissons_ratio = 0.0_wp       !! [1]
   contains
-    procedure :: mirrors, has_way_out, growth
+    procedure :: is_cooled, mirrors, has_way_out, growth
   end type thermal_case_type
 
 contains
@@ -180,7 +180,7 @@ contains
                                                       .not. keys%key%given)
     call keys%real_key('cooling_flow', thermal%cooling_flow, 'kg/s', 'of gas that is blown '// &
                        'along the bumps of this bearing, to +z; 0: none', not_negative)
-    cooled = thermal%cooling_flow > 0.0_wp
+    cooled = keys%holds('thermal', 'cooling_flow')
     if (cooled) thermal%cooling_temperature = thermal%ambient_temperature
     call keys%real_key('cooling_temperature', thermal%cooling_temperature, 'K', 'of that gas '// &
                        'where it enters, at -L/2', from_to(coldest, hottest), default=ambient)
@@ -230,11 +230,18 @@ contains
                                           self%shaft_inner_radius**2)
   end function growth
 
+  !> Whether there is a channel for cooling gas, which may stand still at a point of a sweep.
+  pure logical function is_cooled(self)
+    class(thermal_case_type), intent(in) :: self !! what `&thermal` asks for
+    is_cooled = max(self%cooling_flow, self%channel_conductance, &
+                    self%channel_sleeve_conductance) > 0.0_wp
+  end function is_cooled
+
   !> Whether both halves of the width are alike.
   pure logical function mirrors(self)
     class(thermal_case_type), intent(in) :: self !! what `&thermal` asks for
 
-    mirrors = .not. self%cooling_flow > 0.0_wp
+    mirrors = .not. self%is_cooled()
     if (self%shaft /= wall_fin) return
     mirrors = mirrors .and. .not. &
               (abs(self%shaft_end_conductance(2) - self%shaft_end_conductance(1)) > 0.0_wp .or. &
