@@ -31,7 +31,7 @@ module gfb_bearing_plan
 
   integer, parameter :: digits = 3 !! shown
   !> of the film: a rank that has fewer waits more than it computes
-  integer, parameter :: few_nodes = 500
+  integer, parameter :: few_nodes = 200
 
   !> Cell Peclet number of the concentric film above which SUPG is chosen [1]. Rigid bearings,
   !> Lambda 0.1 to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error;
@@ -101,7 +101,7 @@ contains
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_plan_type), intent(out) :: plan !! what was chosen
-    integer :: nodes
+    integer :: nodes, films
 
     plan%order = scene%model%film_order
     plan%circumferential = scene%mesh%circumferential_elements
@@ -135,10 +135,10 @@ contains
       call log%line('pads: '//text(scene%bearing%pads)// &
                     ', each with such a film and foils of its own')
     end if
-    call show_few(nodes*scene%bearing%pads, scene, log)
-    plan%memory = film_memory(nodes*scene%bearing%pads, rank_count())
-    if (scene%model%foil == foil_shell) call show_foil_sizes(scene, plan, nodes, log)
-    if (scene%rotor%distance_in_time > 0.0_wp) plan%memory = 2.0_wp*plan%memory ! two bearings
+    films = scene%bearing%pads*merge(2, 1, scene%rotor%distance_in_time > 0.0_wp) ! two bearings
+    call show_few(films*nodes, scene, log)
+    plan%memory = film_memory(films*nodes, rank_count())
+    if (scene%model%foil == foil_shell) call show_foil_sizes(scene, films, nodes, plan, log)
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
     end if
@@ -172,10 +172,11 @@ contains
   end function solved_rows
 
   !> Sizes of foils of shells, and their memory.
-  subroutine show_foil_sizes(scene, plan, nodes, log)
+  subroutine show_foil_sizes(scene, films, nodes, plan, log)
     type(scene_type), intent(in) :: scene
+    integer, intent(in) :: films !! each with foils of its own
+    integer, intent(in) :: nodes !! of a film, and of its top foil
     type(bearing_plan_type), intent(inout) :: plan
-    integer, intent(in) :: nodes !! of the film, and of the top foil
     type(run_log_type), intent(in) :: log
     integer :: rows, stations
     real(wp) :: unknowns
@@ -184,13 +185,12 @@ contains
     rows = solved_rows(plan)
     reduced = scene%model%reduction == reduction_guyan
     call count_bumps(scene, rows, reduced, stations, unknowns)
-    plan%memory = scene%bearing%pads* &
-                  bearing_memory(nodes, unknowns, rows, reduced, scene%solver%linear_solver)
+    plan%memory = films*bearing_memory(nodes, unknowns, rows, reduced, scene%solver%linear_solver)
     if (allocated(scene%model%reduction_reason)) then
       call log%line('bumps: '//scene%model%reduction_reason)
     end if
     call log%line('foils: about '// &
-                  text(scene%bearing%pads*(nint(unknowns) + node_unknowns*nodes))// &
+                  text(films*(nint(unknowns) + node_unknowns*nodes))// &
                   ' unknowns before supports')
   end subroutine show_foil_sizes
 
