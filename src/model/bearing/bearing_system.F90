@@ -191,6 +191,10 @@ contains
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
+    ! Rows have room for contacts that most of them never get: a copy holds what is used alone.
+    PetscCallA(MatDestroy(bearing%jacobian, ierr))
+    PetscCallA(MatDuplicate(bearing%constant, MAT_COPY_VALUES, bearing%jacobian, ierr))
+    PetscCallA(MatSetOption(bearing%jacobian, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE, ierr))
   end subroutine fill_constant
 
   !> Adds a matrix of a pad's foil, in its own numbers.
