@@ -24,7 +24,7 @@ module gfb_bearing_plan
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core
-  use gfb_memory_check, only: film_memory, bearing_memory, show_memory
+  use gfb_memory_check, only: film_memory, bearing_memory, study_share, show_memory
   implicit none (type, external)
   private
   public :: plan_bearing
@@ -139,6 +139,7 @@ contains
     call show_few(films*nodes, scene, log)
     plan%memory = film_memory(films*nodes, rank_count())
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, films, nodes, plan, log)
+    plan%memory = plan%memory*study_share(scene, plan%half)
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
     end if

@@ -19,8 +19,8 @@ module gfb_memory_check
   use gfb_scene_case, only: analysis_strip, analysis_modes
   implicit none (type, external)
   private
-  public :: strip_memory, bearing_memory, modes_memory, film_memory, factor_entries, show_memory, &
-            check_memory
+  public :: strip_memory, bearing_memory, modes_memory, film_memory, factor_entries, study_share, &
+            rank_memory, show_memory, check_memory
 
   real(wp), parameter :: stated_factor = 1.5_wp !! estimate and peak differ by no more
 
@@ -98,17 +98,17 @@ contains
     logical, intent(in) :: reduced            !! bumps are condensed
     integer, intent(in) :: linear_solver      !! `linear_solver_direct`, ...
     real(wp) :: bytes
-    real(wp), parameter :: an_entry = 15.0_wp !! of factors; foils lie over each other [B]
-    real(wp), parameter :: in_files = 0.35_wp !! of the factors stays in memory
+    real(wp), parameter :: an_entry = 18.0_wp !! of factors; foils lie over each other [B]
+    real(wp), parameter :: in_files = 0.3_wp  !! of the factors stays in memory
     real(wp) :: an_unknown, a_coupling
 
     an_unknown = an_entry*factor_entries(huge(rows), rows)
     if (linear_solver == linear_solver_out_of_core) then
       an_unknown = 3.5e3_wp + in_files*an_unknown
-      a_coupling = 200.0_wp
+      a_coupling = 135.0_wp
     else
-      an_unknown = 4.3e3_wp + an_unknown
-      a_coupling = 225.0_wp
+      an_unknown = 4.7e3_wp + an_unknown
+      a_coupling = 170.0_wp
     end if
     bytes = real((node_unknowns + 1)*nodes, wp)*an_unknown
     if (reduced) then
@@ -117,6 +117,16 @@ contains
       bytes = bytes + bump_unknowns*an_unknown
     end if
   end function bearing_memory
+
+  !> What a study of a bearing takes, over what its answer does [1]. Small vibrations have complex
+  !> factors, on half the width also those of motions against the mirror.
+  pure real(wp) function study_share(scene, half) result(share)
+    type(scene_type), intent(in) :: scene !! of a bearing
+    logical, intent(in) :: half !! the width is solved
+    share = 1.0_wp
+    if (scene%transient%present .or. scene%periodic%present) share = 2.0_wp
+    if (scene%dynamics%present) share = merge(3.5_wp, 2.3_wp, half)
+  end function study_share
 
   !> All ranks together, with what each process takes by itself [B].
   pure real(wp) function rank_memory(bytes, ranks) result(total)
