@@ -330,7 +330,7 @@ contains
     if (.not. found) then
       call find_length(line, snes, solver%fresh .or. system%slow_change, x, y, trial, trial_residual, found, ierr)
       CHKERRQ(ierr)
-      if (found) call move_there(line, system, snes, x, f, y, trial, trial_residual, ierr)
+      if (found) call move_there(line, system, snes, residual_goal, x, f, y, trial, trial_residual, ierr)
       CHKERRQ(ierr)
     end if
     if (.not. found) then
@@ -474,22 +474,28 @@ contains
     end if
   end subroutine find_length
 
-  !> Takes a trial as the new state; contacts follow it.
-  subroutine move_there(line, system, snes, x, f, y, trial, trial_residual, ierr)
+  !> Takes a trial as the new state; contacts follow it. Where its residual is small enough the work of forces is that of
+  !> round-off, and tells nothing of the step's length.
+  subroutine move_there(line, system, snes, residual_goal, x, f, y, trial, trial_residual, ierr)
     type(line_search_type), intent(inout) :: line
     class(nonlinear_system_type), target, intent(inout) :: system
     SNES, intent(in) :: snes
+    real(wp), intent(in) :: residual_goal
     Vec, intent(in) :: x, f, y               !! state and residual, which are replaced; step
     Vec, intent(in) :: trial, trial_residual !! at the present length of the step
     PetscErrorCode, intent(out) :: ierr
+    PetscReal :: after
     logical :: moved
 
     ierr = 0
     call system%settle(trial, moved)
     if (moved) then
       PetscCall(SNESComputeFunction(snes, trial, trial_residual, ierr))
-      call balance_work(line, system, snes, x, f, y, trial, trial_residual, ierr)
-      CHKERRQ(ierr)
+      PetscCall(VecNorm(trial_residual, NORM_2, after, ierr))
+      if (.not. after <= residual_goal) then
+        call balance_work(line, system, snes, x, f, y, trial, trial_residual, ierr)
+        CHKERRQ(ierr)
+      end if
     end if
     PetscCall(VecCopy(trial, x, ierr))
     PetscCall(VecCopy(trial_residual, f, ierr))

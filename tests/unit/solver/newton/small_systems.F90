@@ -24,10 +24,13 @@ module small_systems
     integer :: law = squares
     real(wp) :: error(longest) = 0.0_wp !! largest error of the states at which it was linearised
     integer :: linearised = 0
+    real(wp) :: turning = 0.0_wp !! norm of the residual below which forces have turned against a step
     logical :: traps = .true. !! overflow, zero and invalid stopped the program wherever it was evaluated
   contains
     procedure :: evaluate => evaluate_small
     procedure :: linearise => linearise_small
+    procedure :: settle => settle_small
+    procedure :: virtual_work => work_of_small
   end type small_type
 
 contains
@@ -105,6 +108,25 @@ contains
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
   end subroutine linearise_small
+
+  !> Contacts have moved wherever forces may turn.
+  subroutine settle_small(self, state, moved)
+    class(small_type), intent(inout) :: self
+    Vec, intent(in) :: state
+    logical, intent(out) :: moved
+    moved = self%turning > 0.0_wp
+  end subroutine settle_small
+
+  !> Work along a step, which asks for a far shorter one where forces have turned.
+  real(wp) function work_of_small(self, residual, step) result(work)
+    class(small_type), intent(in) :: self
+    Vec, intent(in) :: residual, step
+    PetscReal :: norm
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecNorm(residual, NORM_2, norm, ierr))
+    work = merge(1.0_wp, -20.0_wp, norm > self%turning)
+  end function work_of_small
 
   !> Largest distance of a state from the roots of `squares`.
   function error_of(state) result(error)
