@@ -24,7 +24,7 @@ module gfb_scene_rules
                               foil_given, foil_sheet
   implicit none (type, external)
   private
-  public :: check_groups, is_symmetric
+  public :: check_groups, is_symmetric, heat_mirrors
 
   character(len=*), parameter :: heat = 'thermal' !! the group
 
@@ -137,7 +137,7 @@ contains
                      (thermal%bump_conductance_estimated .or. keys%holds(heat, &
                      'bump_conductance')), 'must be given: an estimate needs thickness, '// &
                      'half_length, height and pitch in &bump_foil')
-      call keys%rule(heat, 'channel_sleeve_conductance', keys%holds(heat, 'cooling_flow') .and. &
+      call keys%rule(heat, 'channel_sleeve_conductance', thermal%is_cooled() .and. &
                      .not. (scene%bump_foil%height%value > 0.0_wp .or. keys%holds(heat, &
                      'channel_sleeve_conductance')), 'must be given: &bump_foil has no height')
     end associate
@@ -273,8 +273,17 @@ contains
   !> Whether one half mirrors the other: no point is tilted, and heat leaves both ends alike.
   pure logical function is_symmetric(scene) result(symmetric)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    symmetric = .not. tilts(scene%operation, scene%sweep) .and. scene%thermal%mirrors()
+    symmetric = .not. tilts(scene%operation, scene%sweep) .and. heat_mirrors(scene)
   end function is_symmetric
+
+  !> Whether heat leaves both halves of the width alike, at every point of the scene.
+  pure logical function heat_mirrors(scene) result(mirrors)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    mirrors = scene%thermal%mirrors()
+    if (scene%sweep%parameter /= sweep_keys) return
+    mirrors = mirrors .and. index(scene%sweep%keys, 'cooling_flow') == 0
+  end function heat_mirrors
 
   !> Whether a point of the scene is tilted.
   pure logical function tilts(operation, sweep)

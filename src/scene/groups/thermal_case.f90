@@ -180,12 +180,14 @@ contains
                                                       .not. keys%key%given)
     call keys%real_key('cooling_flow', thermal%cooling_flow, 'kg/s', 'of gas that is blown '// &
                        'along the bumps of this bearing, to +z; 0: none', not_negative)
-    cooled = keys%holds('thermal', 'cooling_flow')
+    call keys%real_key('channel_conductance', thermal%channel_conductance, 'W/(m^2 K)', &
+                       'from top foil to cooling gas, of an area', not_negative)
+    ! A flow of zero in a sweep over it leaves the channel, where its other keys are given.
+    cooled = max(thermal%cooling_flow, thermal%channel_conductance) > 0.0_wp .or. &
+      keys%holds('thermal', 'cooling_temperature')
     if (cooled) thermal%cooling_temperature = thermal%ambient_temperature
     call keys%real_key('cooling_temperature', thermal%cooling_temperature, 'K', 'of that gas '// &
                        'where it enters, at -L/2', from_to(coldest, hottest), default=ambient)
-    call keys%real_key('channel_conductance', thermal%channel_conductance, 'W/(m^2 K)', &
-                       'from top foil to cooling gas, of an area', not_negative)
     if (cooled .and. foil%height%value > 0.0_wp) then
       thermal%channel_sleeve_conductance = channel_nusselt*conductivity/foil%height%value
     end if

@@ -16,7 +16,7 @@ module gfb_bearing_plan
   use gfb_sweep_case, only: sweep_load, sweep_speed
   use gfb_text, only: text
   use gfb_petsc_session, only: rank_count
-  use gfb_scene_rules, only: is_symmetric
+  use gfb_scene_rules, only: is_symmetric, heat_mirrors
   use gfb_shell_geometry, only: node_unknowns
   use gfb_general_film, only: film_flow_type, general_peclet
   use gfb_film_surface, only: entraining_speed
@@ -265,7 +265,7 @@ contains
       plan%half = plan%half .and. strips_mirror(scene)
       if (.not. strips_mirror(scene)) then
         call log%line('width: whole, because the strips do not mirror each other')
-      else if (.not. scene%thermal%mirrors()) then
+      else if (.not. heat_mirrors(scene)) then
         call log%line('width: whole, because heat leaves one end otherwise than the other')
       else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')
