@@ -16,6 +16,8 @@ REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"thermal.json"
 BY_NAME = {scene["name"]: scene for scene in REFERENCE}
 FEW = ("walls_given", "load_growth", "cooled", "shaft_fin")
 TURN = 2.0*math.pi/3.0
+# Errors of the reference itself, which it gives: an inlet with weak walls, flows over the leading edge.
+OWN = {"force": 0.0, "torque": 0.0, "temperature": 1.0e-4, "heat": 0.0, "flow": 3.0e-4}
 TAKEN = ("force_x", "eccentricity_x", "friction_torque", "heat_to_shaft", "heat_to_top_foil", "heat_by_gas",
          "film_temperature", "shaft_temperature", "inlet_temperature", "running_clearance", "mass_flow_leading_edge")
 
@@ -56,12 +58,12 @@ def errors(scene, answer):
 
 
 def check_reference(checks, folder, names, order):
-    limits = {"force": 2.0e-3, "torque": 5.0e-4, "temperature": 5.0e-4, "heat": 1.0e-3, "flow": 1.0e-3}  # flows of the reference are good to 3e-4
+    limits = {"force": 2.0e-3, "torque": 5.0e-4, "temperature": 5.0e-4, "heat": 1.0e-3, "flow": 1.0e-3}
     for name in names:
         scene = BY_NAME[name]
         answer = solve(folder, name, on_mesh(scene, 240, 32, order))
         for kind, error in errors(scene, answer).items():
-            checks.below(f"{name}, order {order}: {kind}", error, limits[kind]*(0.2 if order == 2 and kind != "flow" else 1.0))
+            checks.below(f"{name}, order {order}: {kind}", error, limits[kind]*(0.2 if order == 2 and kind != "flow" else 1.0) + OWN[kind])
         checks.below(f"{name}: energy", answer["energy_imbalance"], 1.0e-9)
 
 
