@@ -138,7 +138,8 @@ contains
                      'bump_conductance')), 'must be given: an estimate needs thickness, '// &
                      'half_length, height and pitch in &bump_foil')
       call keys%rule(heat, 'channel_sleeve_conductance', thermal%is_cooled() .and. &
-                     .not. (scene%bump_foil%height%value > 0.0_wp .or. keys%holds(heat, &
+                     keys%holds(heat, 'cooling_flow') .and. .not. &
+                     (scene%bump_foil%height%value > 0.0_wp .or. keys%holds(heat, &
                      'channel_sleeve_conductance')), 'must be given: &bump_foil has no height')
     end associate
   end subroutine check_heated_foil
