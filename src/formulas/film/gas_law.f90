@@ -30,6 +30,11 @@ module gfb_gas_law
   end type monotone_table_type
 
   real(wp), parameter, public :: gas_constant = 8.314462618_wp !! R [J/(mol K)]
+  real(wp), parameter, public :: sutherland_temperature = 110.4_wp !! of air [K]
+
+  !> How the viscosity follows the temperature: not, as that of air, as a power of it.
+  integer, parameter, public :: viscosity_constant = 1, viscosity_sutherland = 2, &
+                                viscosity_power = 3
 
   !> A fluid at a temperature.
   type, public :: peng_robinson_type
@@ -385,6 +390,6 @@ contains
   elemental function sutherland_viscosity(temperature) result(viscosity)
     real(wp), intent(in) :: temperature !! T [K]
     real(wp) :: viscosity               !! [Pa s]
-    viscosity = 1.458e-6_wp*temperature**1.5_wp/(temperature + 110.4_wp)
+    viscosity = 1.458e-6_wp*temperature**1.5_wp/(temperature + sutherland_temperature)
   end function sutherland_viscosity
 end module gfb_gas_law

@@ -18,7 +18,8 @@ module gfb_heated_film
   use gfb_kinds, only: wp
   use gfb_film_flow, only: film_flow_type, flow_here, upwind_weight, upwind_weight_derivative
   use gfb_film_geometry, only: film_geometry_type, film_shapes, most_film_nodes
-  use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type
+  use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, viscosity_sutherland, &
+                         viscosity_power, sutherland_temperature
   implicit none (type, external)
   private
   public :: heated_residual, heated_jacobian, heated_shear, relative_viscosity
@@ -50,10 +51,6 @@ module gfb_heated_film
     module procedure square_root
   end interface
 
-  !> How the viscosity follows the temperature.
-  integer, parameter, public :: viscosity_constant = 1, viscosity_sutherland = 2, &
-                                viscosity_power = 3
-  real(wp), parameter :: sutherland_temperature = 110.4_wp !! of air [K]
 
   !> What the energy equation wants of the gas, beside its law at the reference temperature.
   type, public :: heated_gas_type
@@ -82,6 +79,10 @@ module gfb_heated_film
   !> Equations at its nodes: mass [Pa m3/s], energy of the gas, heat into foil and shaft [W].
   integer, parameter, public :: row_mass = 1, row_energy = 2, row_foil = 3, row_shaft = 4, &
                                 heated_rows = 4
+
+  !> What a wall beyond the film is: held at a temperature; one that follows from the heat that goes
+  !> to a far place; or conducting along the axis.
+  integer, parameter, public :: wall_given = 1, wall_conductance = 2, wall_fin = 3
 
   !> The fields at an element's nodes.
   type, public :: heated_state_type

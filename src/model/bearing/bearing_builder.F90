@@ -149,12 +149,8 @@ contains
                              bearing%radius*given%shaft_expansion)
       heat%sleeve = wall_type(given%sleeve, given%sleeve_temperature, given%sleeve_conductance, given%sleeve_far_temperature, &
                               bearing%radius*given%sleeve_expansion)
-      associate (radius => bearing%radius, inner => given%shaft_inner_radius, nu => given%shaft_poissons_ratio)
-        heat%fin = given%shaft_conductivity*pi*(radius**2 - inner**2)
-        if (given%centrifugal) then
-          heat%centrifugal = given%shaft_density*radius*((1.0_wp - nu)*radius**2 + (3.0_wp + nu)*inner**2)/(4.0_wp*given%shaft_youngs_modulus)
-        end if
-      end associate
+      heat%fin = given%shaft_conductivity*pi*(bearing%radius**2 - given%shaft_inner_radius**2)
+      heat%centrifugal = given%growth(bearing%radius, 1.0_wp)
       heat%end_conductance = given%shaft_end_conductance
       heat%end_temperature = given%shaft_end_temperature
       heat%sheet = given%top_foil == foil_sheet

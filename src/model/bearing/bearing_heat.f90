@@ -5,19 +5,18 @@
 !> slit, the channel along the bumps (one a row).
 module gfb_bearing_heat
   use gfb_kinds, only: wp
-  use gfb_heated_film, only: heated_gas_type
+  use gfb_heated_film, only: heated_gas_type, wall_given, wall_fin
   use gfb_gas_film, only: gas_film_type
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
   public :: number_heat, growth_of, heat_sizes, row_of
 
-  integer, parameter, public :: wall_given = 1, wall_conductance = 2, wall_fin = 3
   real(wp), parameter, public :: heat_scale = 100.0_wp !! size of a temperature [K]
 
   !> A wall of one temperature.
   type, public :: wall_type
-    integer :: kind = wall_given
+    integer :: kind = wall_given !! as the scene has it
     real(wp) :: temperature = 0.0_wp !! where it is given [K]
     real(wp) :: conductance = 0.0_wp !! to what is far [W/K]
     real(wp) :: far = 0.0_wp         !! temperature there [K]

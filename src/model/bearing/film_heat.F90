@@ -10,21 +10,25 @@ module gfb_film_heat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_heated_film, only: heated_gas_type, heated_state_type, heated_residual, heated_jacobian, heated_rows, heated_fields, row_mass, &
-                             row_energy, row_foil, row_shaft, field_pressure, field_gap, field_gas, field_foil, field_shaft
-  use gfb_bearing_heat, only: film_heat_type, wall_given, wall_conductance, row_of
+  use gfb_heated_film, only: heated_state_type, heated_residual, heated_jacobian, heated_rows, heated_fields, &
+                             row_mass, row_energy, row_foil, row_shaft, field_pressure, field_gap, field_gas, field_foil, &
+                             field_shaft, wall_given, wall_conductance
+  use gfb_bearing_heat, only: film_heat_type, row_of
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   implicit none (type)
   private
   public :: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian, state_of, walls_of, feed, is_leading, is_trailing
 
-  !> Flows over the edges of each pad.
-  type :: edge_flow_type
-    real(wp) :: inflow = 0.0_wp      !! over the leading edge [kg/s]
-    real(wp) :: outflow = 0.0_wp     !! over the trailing edge [kg/s]
-    real(wp) :: carried = 0.0_wp     !! its flow of temperature over ambient [kg K/s]
-  end type edge_flow_type
+  !> How gas mixes in the slit before a pad: its rise over ambient times `flow` is what is `carried` there. With nothing to feed
+  !> it is ambient gas; with more from the pad before than it takes it has that gas' temperature.
+  type :: slit_type
+    real(wp) :: flow = 1.0_wp       !! that is mixed [kg/s]
+    real(wp) :: carried = 0.0_wp    !! by what comes from the pad before, times its rise over ambient [kg K/s]
+    real(wp) :: share = 0.0_wp      !! part of that pad's outflow that comes [1]
+    real(wp) :: by_inflow = 0.0_wp  !! change of `flow` by what enters the pad [1]
+    real(wp) :: by_outflow = 0.0_wp !! by what leaves the one before [1]
+  end type slit_type
 
 contains
 
@@ -218,7 +222,7 @@ contains
     real(wp), intent(in) :: flow(:)    !! at each local unknown of a pressure, what all ranks' elements take there [Pa m3/s]
     logical, intent(in) :: last_rank   !! this rank owns the walls
     real(wp), intent(inout) :: residual(:) !! one a local unknown [SI]
-    type(edge_flow_type) :: edge(size(pads))
+    type(slit_type) :: slit(size(pads))
     integer :: i, node
 
     do i = 1, size(pads)
@@ -237,8 +241,8 @@ contains
         end do
       end associate
     end do
-    edge = edge_flows(heat, pads, unknown, flow)
-    if (last_rank) call add_walls(heat, pads, edge, unknown, residual)
+    slit = slits_of(heat, pads, unknown, flow)
+    if (last_rank) call add_walls(heat, pads, slit, unknown, residual)
   end subroutine add_heat_flows
 
   !> Temperature of the gas that is drawn in at a node of an edge [K].
@@ -267,13 +271,13 @@ contains
     is = .not. pad%whole%periodic .and. pad%mesh%mesh_node(node) > pad%whole%nodes() - pad%whole%rows()
   end function is_trailing
 
-  !> Flows over leading and trailing edges, over all ranks.
-  function edge_flows(heat, pads, unknown, flow) result(edge)
+  !> The slits before all pads, by what flows over leading and trailing edges on all ranks.
+  function slits_of(heat, pads, unknown, flow) result(slit)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pads(:)
     real(wp), intent(in) :: unknown(:), flow(:)
-    type(edge_flow_type) :: edge(size(pads))
-    real(wp) :: sums(3, size(pads))
+    type(slit_type) :: slit(size(pads))
+    real(wp) :: sums(3, size(pads)) ! flow in, flow out, that times its rise over ambient
     integer :: i, node
 
     sums = 0.0_wp
@@ -292,24 +296,40 @@ contains
       end associate
     end do
     sums = reshape(sum_over_ranks(reshape(sums, [size(sums)])), shape(sums))
-    edge = [(edge_flow_type(sums(1, i), sums(2, i), sums(3, i)), i=1, size(pads))]
-  end function edge_flows
+    do i = 1, size(pads)
+      associate (inflow => sums(1, i), before => sums(2:, pad_before(pads, i)))
+        if (.not. inflow > tiny(1.0_wp)/epsilon(1.0_wp)) cycle
+        if (heat%carry_over*before(1) > inflow) then
+          slit(i) = slit_type(before(1), before(2), 1.0_wp, 0.0_wp, 1.0_wp)
+        else
+          slit(i) = slit_type(inflow, heat%carry_over*before(2), heat%carry_over, 1.0_wp, 0.0_wp)
+        end if
+      end associate
+    end do
+  end function slits_of
 
-  !> Whether more than enough leaves the pad before to feed a pad: then its slit has that temperature.
-  elemental logical function is_flooded(heat, edge, before) result(is)
-    type(film_heat_type), intent(in) :: heat
-    type(edge_flow_type), intent(in) :: edge, before
-    is = heat%carry_over*before%outflow > edge%inflow
-  end function is_flooded
+  !> The pad whose trailing edge lies before a pad.
+  pure integer function pad_before(pads, number) result(before)
+    type(pad_type), intent(in) :: pads(:)
+    integer, intent(in) :: number
+    before = modulo(number - 2, size(pads)) + 1
+  end function pad_before
+
+  !> The pad that one feeds.
+  pure integer function pad_after(pads, number) result(after)
+    type(pad_type), intent(in) :: pads(:)
+    integer, intent(in) :: number
+    after = modulo(number, size(pads)) + 1
+  end function pad_after
 
   !> Adds what walls give away, and the mixing in slits.
-  pure subroutine add_walls(heat, pads, edge, unknown, residual)
+  pure subroutine add_walls(heat, pads, slit, unknown, residual)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pads(:)
-    type(edge_flow_type), intent(in) :: edge(:)
+    type(slit_type), intent(in) :: slit(:)
     real(wp), intent(in) :: unknown(:)
     real(wp), intent(inout) :: residual(:)
-    integer :: i, before, end_row
+    integer :: i, end_row
 
     associate (wall => unknown(heat%first_wall + 1:heat%first_wall + heat%walls), first => heat%first_wall, &
                copies => pads(1)%film%copies)
@@ -333,15 +353,8 @@ contains
           end if
         end associate
         do i = 1, size(pads)
-          before = modulo(i - 2, size(pads)) + 1
           associate (inlet => heat%inlet_wall(i))
-            if (.not. feeds(edge(i))) then
-              equation(inlet) = wall(inlet) - heat%ambient
-            else if (is_flooded(heat, edge(i), edge(before))) then
-              equation(inlet) = edge(before)%outflow*(wall(inlet) - heat%ambient) - edge(before)%carried
-            else
-              equation(inlet) = edge(i)%inflow*(wall(inlet) - heat%ambient) - heat%carry_over*edge(before)%carried
-            end if
+            equation(inlet) = slit(i)%flow*(wall(inlet) - heat%ambient) - slit(i)%carried
           end associate
         end do
         if (heat%channels > 0) then
@@ -352,12 +365,6 @@ contains
       end associate
     end associate
   end subroutine add_walls
-
-  !> Whether anything flows over the leading edge.
-  elemental logical function feeds(edge)
-    type(edge_flow_type), intent(in) :: edge
-    feeds = edge%inflow > tiny(1.0_wp)/epsilon(1.0_wp)
-  end function feeds
 
   !> Adds the derivatives of all that.
   subroutine add_heat_jacobian(heat, pads, point, coordinate, first_shaft, unknown, gap, flow, last_rank, room, matrix)
@@ -372,7 +379,7 @@ contains
     logical, intent(in) :: last_rank   !! this rank owns the walls
     logical, intent(in) :: room !! zeros alone, where they stand; the state has no values then
     Mat, intent(in) :: matrix !! by the bearing's local numbers
-    type(edge_flow_type) :: edge(size(pads))
+    type(slit_type) :: slit(size(pads))
     real(wp), allocatable :: block(:, :)
     integer, allocatable :: row(:), column(:)
     integer :: i, k, n, element, next
@@ -380,9 +387,9 @@ contains
     n = size(pads(1)%film%shape, 1)
     ! a row of the matrix in each column, as PETSc reads it
     allocate (block(6*n + 1 + size(coordinate), 5*n + 3))
-    if (.not. room) edge = edge_flows(heat, pads, unknown, flow)
+    if (.not. room) slit = slits_of(heat, pads, unknown, flow)
     do i = 1, size(pads)
-      next = modulo(i, size(pads)) + 1
+      next = pad_after(pads, i)
       associate (pad => pads(i), foil => pads(i)%foil)
         do element = 1, size(pad%film%element_nodes, 2)
           associate (nodes => pad%film%element_nodes(:, element))
@@ -394,7 +401,7 @@ contains
             block = 0.0_wp
             if (.not. room) then
               call put_element(heat, pad, i, element, point, coordinate, unknown, gap(pad%first_node + 1:pad%last_node), block)
-              call put_edges(heat, pads, i, element, edge, unknown, flow, block)
+              call put_edges(heat, pads, i, element, slit, unknown, flow, block)
             end if
             where (pad%film%fixed(nodes)) row(:n) = 0
             if (.not. any(is_leading(pad, nodes) .or. is_trailing(pad, nodes))) row(5*n + 2:) = 0
@@ -403,8 +410,8 @@ contains
         end do
       end associate
     end do
-    call add_flow_rates(heat, pads, edge, merge(0.0_wp, 1.0_wp, room), flow, matrix)
-    if (last_rank) call add_wall_rates(heat, pads, edge, merge(0.0_wp, 1.0_wp, room), matrix)
+    call add_flow_rates(heat, pads, slit, merge(0.0_wp, 1.0_wp, room), flow, matrix)
+    if (last_rank) call add_wall_rates(heat, pads, slit, merge(0.0_wp, 1.0_wp, room), matrix)
   end subroutine add_heat_jacobian
 
   !> Derivatives of what an element says: by pressure, gas, foil, shaft, channel, sleeve, what moves the foil, and the shaft's
@@ -452,19 +459,18 @@ contains
   end subroutine put_element
 
   !> What flows over edges changes with the mass equations of their nodes, which stand in the block.
-  subroutine put_edges(heat, pads, number, element, edge, unknown, flow, block)
+  subroutine put_edges(heat, pads, number, element, slit, unknown, flow, block)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pads(:)
     integer, intent(in) :: number !! of the pad
     integer, intent(in) :: element
-    type(edge_flow_type), intent(in) :: edge(:)
+    type(slit_type), intent(in) :: slit(:)
     real(wp), intent(in) :: unknown(:), flow(:)
     real(wp), intent(inout) :: block(:, :)
-    integer :: b, n, before, next
+    integer :: b, n, next
 
     n = size(pads(1)%film%shape, 1)
-    before = modulo(number - 2, size(pads)) + 1
-    next = modulo(number, size(pads)) + 1
+    next = pad_after(pads, number)
     do b = 1, n
       associate (pad => pads(number), node => pads(number)%film%element_nodes(b, element), wall => heat%first_wall, &
                  density => heat%gas%density)
@@ -472,16 +478,13 @@ contains
         associate (mass => block(:, b), inflow => flow(pad%first + node), gas => unknown(heat%first(number) + 2*node - 1))
           if (inflow > 0.0_wp) then
             block(:, n + b) = block(:, n + b) + heat%gas%specific_heat*density*(gas - feed(heat, pad, number, node, unknown))*mass
-            if (is_leading(pad, node) .and. feeds(edge(number)) .and. .not. is_flooded(heat, edge(number), edge(before))) then
-              block(:, 5*n + 2) = block(:, 5*n + 2) &
-                + pad%film%copies*density*(unknown(wall + heat%inlet_wall(number)) - heat%ambient)*mass
-            end if
-          else if (is_trailing(pad, node) .and. feeds(edge(next))) then
-            if (is_flooded(heat, edge(next), edge(number))) then
-              block(:, 5*n + 3) = block(:, 5*n + 3) - pad%film%copies*density*(unknown(wall + heat%inlet_wall(next)) - gas)*mass
-            else
-              block(:, 5*n + 3) = block(:, 5*n + 3) + pad%film%copies*density*heat%carry_over*(gas - heat%ambient)*mass
-            end if
+            if (is_leading(pad, node)) block(:, 5*n + 2) = block(:, 5*n + 2) &
+              + pad%film%copies*density*slit(number)%by_inflow*(unknown(wall + heat%inlet_wall(number)) - heat%ambient)*mass
+          else if (is_trailing(pad, node)) then
+            associate (left => slit(next), rise => unknown(wall + heat%inlet_wall(next)) - heat%ambient)
+              block(:, 5*n + 3) = block(:, 5*n + 3) &
+                + pad%film%copies*density*(left%share*(gas - heat%ambient) - left%by_outflow*rise)*mass
+            end associate
           end if
         end associate
       end associate
@@ -489,17 +492,17 @@ contains
   end subroutine put_edges
 
   !> Derivatives by temperatures of what flows over the edges, and of what is given.
-  subroutine add_flow_rates(heat, pads, edge, factor, flow, matrix)
+  subroutine add_flow_rates(heat, pads, slit, factor, flow, matrix)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pads(:)
-    type(edge_flow_type), intent(in) :: edge(:)
+    type(slit_type), intent(in) :: slit(:)
     real(wp), intent(in) :: factor !! 0: makes room [1]
     real(wp), intent(in) :: flow(:)
     Mat, intent(in) :: matrix
     integer :: i, node, next
 
     do i = 1, size(pads)
-      next = modulo(i, size(pads)) + 1
+      next = pad_after(pads, i)
       associate (pad => pads(i), film => pads(i)%film)
         do node = 1, size(film%fixed)
           if (.not. pad%mesh%owned(node)) cycle
@@ -512,10 +515,8 @@ contains
               call put_block(matrix, [gas], [gas, slit], reshape([gain, -gain], [2, 1]))
             end associate
             if (.not. is_trailing(pad, node)) cycle
-            associate (share => merge(1.0_wp, 0.0_wp, feeds(edge(next)))*merge(1.0_wp, heat%carry_over, is_flooded(heat, edge(next), edge(i))))
-              call put_block(matrix, [heat%first_wall + heat%inlet_wall(next)], [gas], &
-                             reshape([-share*film%copies*max(-inflow, 0.0_wp)], [1, 1]))
-            end associate
+            call put_block(matrix, [heat%first_wall + heat%inlet_wall(next)], [gas], &
+                           reshape([-slit(next)%share*film%copies*max(-inflow, 0.0_wp)], [1, 1]))
           end associate
         end do
       end associate
@@ -523,14 +524,14 @@ contains
   end subroutine add_flow_rates
 
   !> Derivatives of what the walls give away.
-  subroutine add_wall_rates(heat, pads, edge, factor, matrix)
+  subroutine add_wall_rates(heat, pads, slit, factor, matrix)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pads(:)
-    type(edge_flow_type), intent(in) :: edge(:)
+    type(slit_type), intent(in) :: slit(:)
     real(wp), intent(in) :: factor !! 0: makes room [1]
     Mat, intent(in) :: matrix
     real(wp) :: rate(heat%walls)
-    integer :: i, before
+    integer :: i
 
     rate = 0.0_wp
     associate (copies => pads(1)%film%copies)
@@ -546,12 +547,7 @@ contains
       rate(heat%sleeve_wall()) = merge(1.0_wp, -heat%sleeve%conductance, heat%sleeve%kind == wall_given)
     end associate
     do i = 1, size(pads)
-      before = modulo(i - 2, size(pads)) + 1
-      associate (inlet => rate(heat%inlet_wall(i)))
-        inlet = edge(i)%inflow
-        if (is_flooded(heat, edge(i), edge(before))) inlet = edge(before)%outflow
-        if (.not. feeds(edge(i))) inlet = 1.0_wp
-      end associate
+      rate(heat%inlet_wall(i)) = slit(i)%flow
     end do
     if (heat%channels > 0) rate(heat%channel_wall(1)) = heat%cooling
     do i = 1, heat%walls

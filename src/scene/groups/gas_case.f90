@@ -5,7 +5,8 @@ module gfb_gas_case
                            rule_type
   use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, sutherland_viscosity, &
                          density_peng_robinson, density_table, monotone_table, table_at, &
-                         peng_robinson, saturate, amount_at, gas_constant
+                         peng_robinson, saturate, amount_at, gas_constant, &
+                         viscosity_constant, viscosity_sutherland, viscosity_power
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
   implicit none (type, external)
@@ -15,9 +16,6 @@ module gfb_gas_case
   character(len=*), parameter :: group = 'gas'
   integer, parameter :: second_word = 2 !! of state and turbulence: not the simplest
   real(wp), parameter :: air = 0.0289647_wp !! [kg/mol]
-  integer, parameter, public :: viscosity_constant = 1   !! over the temperature
-  integer, parameter, public :: viscosity_sutherland = 2 !! that of air
-  integer, parameter, public :: viscosity_power = 3      !! a power of the temperature
 
   real(wp), parameter, public :: usual_temperature = 293.15_wp !! where heat is on [K]
 

@@ -4,14 +4,12 @@ module gfb_thermal_case
   use gfb_case_keys, only: case_keys_type, between, from_to, no_default, not_negative, positive
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_gas_case, only: gas_case_type, usual_temperature, follow_ambient
+  use gfb_heated_film, only: wall_given, wall_conductance, wall_fin
   use gfb_scene_case, only: is_bearing, misplaced_group
   implicit none (type, external)
   private
   public :: thermal_case_type, read_thermal_case, estimated_bump_conductance
-
-  integer, parameter, public :: wall_given = 1       !! held at a temperature
-  integer, parameter, public :: wall_conductance = 2 !! one temperature, heat to a far one
-  integer, parameter, public :: wall_fin = 3         !! conducts along z; the shaft alone
+  public :: wall_given, wall_conductance, wall_fin
 
   integer, parameter, public :: foil_given = 1 !! held at a temperature
   integer, parameter, public :: foil_sheet = 2 !! conducts in its plane

@@ -24,7 +24,7 @@ module gfb_bearing_plan
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core
-  use gfb_memory_check, only: film_memory, bearing_memory, study_share, show_memory
+  use gfb_memory_check, only: film_memory, bearing_memory, study_share, heated_memory, show_memory
   implicit none (type, external)
   private
   public :: plan_bearing
@@ -225,17 +225,6 @@ contains
       end if
     end if
   end subroutine describe_foil
-
-  !> Memory with two temperatures a film node, which factors of MUMPS tie to all else [B].
-  pure real(wp) function heated_memory(scene, nodes, cold) result(bytes)
-    type(scene_type), intent(in) :: scene
-    integer, intent(in) :: nodes !! of a pad
-    real(wp), intent(in) :: cold !! without heat [B]
-    real(wp), parameter :: a_node = 1.0e4_wp, of_shells = 1.5_wp !! [B], [1]
-
-    bytes = cold*merge(of_shells, 1.0_wp, scene%model%foil == foil_shell) &
-      + a_node*real(nodes*scene%bearing%pads, wp)
-  end function heated_memory
 
   !> What heat flows through, and what of it is only estimated.
   subroutine describe_heat(scene, log)

@@ -20,7 +20,7 @@ module gfb_memory_check
   implicit none (type, external)
   private
   public :: strip_memory, bearing_memory, modes_memory, film_memory, factor_entries, study_share, &
-            rank_memory, show_memory, check_memory
+            heated_memory, rank_memory, show_memory, check_memory
 
   real(wp), parameter :: stated_factor = 1.5_wp !! estimate and peak differ by no more
 
@@ -127,6 +127,17 @@ contains
     if (scene%transient%present .or. scene%periodic%present) share = 2.0_wp
     if (scene%dynamics%present) share = merge(3.5_wp, 2.3_wp, half)
   end function study_share
+
+  !> Memory with two temperatures a film node, which factors of MUMPS tie to all else [B].
+  pure real(wp) function heated_memory(scene, nodes, cold) result(bytes)
+    type(scene_type), intent(in) :: scene !! of a bearing
+    integer, intent(in) :: nodes !! of a pad
+    real(wp), intent(in) :: cold !! without heat [B]
+    real(wp), parameter :: a_node = 1.0e4_wp, of_shells = 1.5_wp !! [B], [1]
+
+    bytes = cold*merge(of_shells, 1.0_wp, scene%model%foil == foil_shell) &
+      + a_node*real(nodes*scene%bearing%pads, wp)
+  end function heated_memory
 
   !> All ranks together, with what each process takes by itself [B].
   pure real(wp) function rank_memory(bytes, ranks) result(total)
