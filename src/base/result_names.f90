@@ -1,7 +1,7 @@
 !> Results by their names: what the table says of them, lists made from it, and lists of values
 !> whose unit and meaning come from it.
 module gfb_result_names
-  use gfb_result_table, only: result_type, result_rows, study_words, own_unit, own_square, &
+  use gfb_result_table, only: result_type, result_rows, heats, study_words, own_unit, own_square, &
                               name_length
   use gfb_text, only: join, plain_text
   use gfb_kinds, only: wp
@@ -9,7 +9,7 @@ module gfb_result_names
                           quantity_word, quantity_truth
   implicit none (type, external)
   private
-  public :: find_result, result_unit, result_meaning, is_of, is_nodal, asked_names, &
+  public :: find_result, result_unit, result_meaning, is_of, is_of_heat, is_nodal, asked_names, &
             compared_names, results_text, result_words, row_names, quotient_unit, add_result
 
   character(len=*), parameter :: any_number = '<n>', any_key = '<key>', &
@@ -45,6 +45,12 @@ contains
     end do
     found%name = ''
   end subroutine find_result
+
+  !> Whether a result is one of heat, of a bearing or of one of its pads.
+  pure logical function is_of_heat(name) result(is)
+    character(len=*), intent(in) :: name !! as it is written
+    is = any(heats%name == name(:verify(name, digits//'_ ', back=.true.)))
+  end function is_of_heat
 
   !> Whether a name is a row's, with a word, a number or a key in the place of each of its marks.
   !> The row gets the words, and a unit that is its quantity's.

@@ -151,7 +151,7 @@ module gfb_result_table
     result_type('maximum_solid_contact_pressure', 'Pa', number, bearing, &
       'largest pressure of the solid contact', 'the same: largest pressure of the asperities')]
 
-  type(result_type), parameter :: heats(*) = [ &
+  type(result_type), parameter, public :: heats(*) = [ &
     result_type('film_temperature', 'K', number, bearing, 'mean of the gas in the film', &
       'with `&thermal`: mean over the gas in the film', asked=.true.), &
     result_type('film_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &

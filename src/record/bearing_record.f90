@@ -3,7 +3,7 @@ module gfb_bearing_record
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity
-  use gfb_result_names, only: add_result, result_unit, result_meaning
+  use gfb_result_names, only: add_result, result_unit, result_meaning, is_of_heat
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_words
   use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_eccentricity_y, &
@@ -131,6 +131,12 @@ contains
     do i = 1, size(first)
       if (any(of_first_point == first(i)%name)) call add_quantity(self%judged, first(i))
     end do
+    if (size(self%history) == 0) return
+    associate (begin => self%history(1)%quantity)
+      do i = 1, size(begin)
+        if (is_of_heat(begin(i)%name)) call add_quantity(self%judged, begin(i))
+      end do
+    end associate
   end subroutine move_on
 
   !> Saves or restores a record but for the contacts and the clock.

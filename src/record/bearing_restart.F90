@@ -9,6 +9,7 @@ module gfb_bearing_restart
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type, visit_bearing
+  use gfb_heat_switch, only: visit_frozen
   use gfb_pad_contacts, only: pad_contacts
   use gfb_newton, only: newton_type, forget_factors, visit_counts
   use gfb_arc, only: create_arc, visit_arc
@@ -60,6 +61,7 @@ contains
     logical :: others
 
     call visit_bearing(archive, bearing)
+    call visit_frozen(archive, bearing)
     call visit_counts(archive, newton)
     call archive%part('record')
     call visit_record(archive, record)

@@ -61,13 +61,7 @@ contains
     character(len=*), parameter :: not_yet = 'not yet with &thermal'
 
     if (.not. (scene%thermal%present .and. is_bearing(scene%general%analysis))) return
-    call keys%rule('scene', 'analysis', scene%dynamics%present, not_yet)
-    call keys%rule('scene', 'analysis', scene%transient%present, not_yet)
-    call keys%rule('scene', 'analysis', scene%periodic%present, not_yet)
-    call keys%rule('rotor', 'mass', scene%rotor%present, not_yet)
-    call keys%rule('solver', 'stability', scene%solver%stability, not_yet)
     call keys%rule('sensitivity', 'parameters', scene%sensitivity%present, not_yet)
-    call keys%rule('accuracy', 'quantity', scene%accuracy%present, not_yet)
     call keys%rule('shaft_contact', 'roughness', scene%shaft_contact%present, not_yet)
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                    "must be 'monolithic' with &thermal")

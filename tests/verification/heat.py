@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Heat of film, foils and walls: an independent solution, the isothermal film, energy that closes, half the width, ranks, pads
-turned around, foils as structures, a restart.
+turned around, vibrations and motions at temperatures that stay.
 
 `--long` has all scenes of the reference and biquadratic elements, too."""
 
@@ -10,7 +10,11 @@ import pathlib
 import sys
 import tempfile
 
+import numpy
+
 from gfb_run import Checks, largest_difference, observed_order, solve
+from small_motions import RADIUS, harmonic
+from transient import TIGHT, history
 
 REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"thermal.json").read_text(encoding="utf-8"))["scenes"]
 BY_NAME = {scene["name"]: scene for scene in REFERENCE}
@@ -116,6 +120,49 @@ def check_same(checks, folder):
     checks.below("pads: energy", first["energy_imbalance"], 1.0e-9)
 
 
+def matrix_of(answer, name):
+    """Of the translations, at the first frequency."""
+    return numpy.array([[answer[f"{name}_{row}{column}"] for column in "xy"] for row in "xy"])
+
+
+def check_motion(checks, folder):
+    """Vibrations: of no heat that counts those without it; slow ones what forces at other places are, between walls that are held;
+    a small circle over time as the linear theory has it."""
+    moved = changed(on_mesh(BY_NAME["walls_given"], 60, 8), solver=TIGHT)
+    slow = changed(moved, scene={"analysis": "linear_dynamics"}, dynamics={"frequency_ratios": 1.0e-4})
+    stiffness = matrix_of(solve(folder, "slow", slow), "stiffness")
+    step = 1.0e-8
+    place = numpy.array(moved["operation"]["eccentricity"])
+    differences = numpy.zeros((2, 2))
+    for axis in range(2):
+        for sign in (1.0, -1.0):
+            there = place + sign*step*numpy.eye(2)[axis]
+            answer = solve(folder, "moved", changed(moved, operation={"eccentricity": tuple(there)}))
+            differences[:, axis] -= sign*numpy.array([answer["force_x"], answer["force_y"]])/(2.0*step)
+    checks.below("slow vibrations between given walls", largest_difference(stiffness, differences), 2.0e-3)
+    groups = changed(on_mesh(BY_NAME["load_growth"], 60, 8), solver=TIGHT)
+    speed = groups["operation"]["speed_rpm"]*math.pi/30.0
+    vibrating = solve(folder, "vibrating", changed(groups, scene={"analysis": "linear_dynamics"}, dynamics={"frequencies": 1.5*speed}))
+    impedance = matrix_of(vibrating, "stiffness") + 1.5j*speed*matrix_of(vibrating, "damping")
+    held = {name: keys for name, keys in groups.items() if name != "operation"} | {"operation": {
+        "speed_rpm": groups["operation"]["speed_rpm"], "eccentricity": (vibrating["eccentricity_x"], vibrating["eccentricity_y"])}}
+    circle = solve(folder, "circle", changed(held, scene={"analysis": "transient"}, transient={
+        "turns": 8, "steps_per_turn": 100, "orbit_radius": RADIUS, "orbit_frequency": 1.5*speed}))
+    force = harmonic(history(circle), "force", 1.5*speed, 4.0)
+    wanted = -impedance @ numpy.array([RADIUS, -1j*RADIUS])
+    checks.below("force on a circle over time", numpy.linalg.norm(force - wanted)/numpy.linalg.norm(wanted), 1.0e-3)
+    checks.below("temperatures at its end are those of its beginning", circle["shaft_temperature"]/vibrating["shaft_temperature"] - 1.0,
+                 1.0e-9)
+
+
+def check_accuracy(checks, folder):
+    """The error that meshes tell of a heat, against the reference."""
+    scene = BY_NAME["load_growth"]
+    answer = solve(folder, "accuracy", changed(scene["groups"], accuracy={"quantity": "heat_to_shaft", "target": 1.0e-2}))
+    error = abs(answer["heat_to_shaft"] - scene["answers"]["heat_to_shaft"])
+    checks.that(f"error of a heat {error:.2e} W, told {answer['heat_to_shaft_error']:.2e} W", error < answer["heat_to_shaft_error"] < 0.1)
+
+
 def main():
     checks = Checks()
     everything = "--long" in sys.argv
@@ -127,6 +174,8 @@ def main():
         check_isothermal(checks, folder)
         check_couette(checks, folder)
         check_same(checks, folder)
+        check_motion(checks, folder)
+        check_accuracy(checks, folder)
     checks.close()
 
 

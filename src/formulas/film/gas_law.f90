@@ -67,6 +67,13 @@ module gfb_gas_law
     logical :: turbulent = .false.        !! Ng and Pan's factors of the flow
   end type gas_law_type
 
+  !> What a temperature that is not the law's makes of the gas: it stands beside each of these.
+  type, public :: gas_factors_type
+    real(wp) :: density = 1.0_wp        !! of r [1]
+    real(wp) :: viscosity = 1.0_wp      !! [1]
+    real(wp) :: mean_free_path = 1.0_wp !! [1]
+  end type gas_factors_type
+
   !> Density and viscosity at a pressure, with two derivatives by it.
   type, public :: gas_state_type
     real(wp) :: r, r_p, r_pp    !! p_a rho/rho_a [Pa], [1], [1/Pa]

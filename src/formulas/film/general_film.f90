@@ -8,13 +8,13 @@
 module gfb_general_film
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
-  use gfb_gas_law, only: gas_law_type, gas_state_type, gas_state
+  use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_state_type, gas_state
   use gfb_film_flow, only: film_flow_type, flow_here, cell_peclet, upwind_weight, &
                            upwind_weight_derivative
   implicit none (type, external)
   private
   public :: film_flow_type, general_residual, general_jacobian, general_peclet, peclet_slopes, &
-            general_friction, general_friction_rates
+            general_friction, general_friction_rates, factors_at
 
   !> A function of pressure and gap with its first and second derivatives.
   type :: jet_type
@@ -176,34 +176,28 @@ contains
   !> Cell Peclet number, entrained over diffused flow: that of `cell_peclet` where the gas is plain.
   !>
   !> $$ Pe = \frac{U h r' \ell}{2 G_x} $$
-  pure function general_peclet(law, flow, stream_length, pressure, gap) result(peclet)
+  pure function general_peclet(law, flow, stream_length, pressure, gap, factors) result(peclet)
     type(gas_law_type), intent(in) :: law    !! of the gas
     type(film_flow_type), intent(in) :: flow !! viscosity and speed of the film
     real(wp), intent(in) :: stream_length !! l, the element's length along x [m]
     real(wp), intent(in) :: pressure      !! p [Pa]
     real(wp), intent(in) :: gap           !! h [m]
+    type(gas_factors_type), intent(in), optional :: factors !! of another temperature
     real(wp) :: peclet                    !! [1]
-    type(point_type) :: here
-    type(jet_type) :: jet
+    real(wp) :: slopes(3)
 
-    if (law%plain) then
-      peclet = cell_peclet(flow, stream_length, pressure, gap)
-      return
-    end if
-    here%p = pressure
-    here%h = gap
-    call put_gas(law, flow, here)
-    jet = peclet_jet(here, flow, stream_length)
-    peclet = jet%f
+    slopes = peclet_slopes(law, flow, stream_length, pressure, gap, factors)
+    peclet = slopes(1)
   end function general_peclet
 
   !> That number and its derivatives by pressure and gap.
-  pure function peclet_slopes(law, flow, stream_length, pressure, gap) result(slopes)
+  pure function peclet_slopes(law, flow, stream_length, pressure, gap, factors) result(slopes)
     type(gas_law_type), intent(in) :: law    !! of the gas
     type(film_flow_type), intent(in) :: flow !! viscosity and speed of the film
     real(wp), intent(in) :: stream_length !! l, the element's length along x [m]
     real(wp), intent(in) :: pressure      !! p [Pa]
     real(wp), intent(in) :: gap           !! h [m]
+    type(gas_factors_type), intent(in), optional :: factors !! of another temperature
     real(wp) :: slopes(3)                 !! [1], [1/Pa], [1/m]
     type(point_type) :: here
     type(jet_type) :: jet
@@ -215,7 +209,7 @@ contains
     end if
     here%p = pressure
     here%h = gap
-    call put_gas(law, flow, here)
+    call put_gas(law, flow, here, factors)
     jet = peclet_jet(here, flow, stream_length)
     slopes = [jet%f, jet%p, jet%h]
   end function peclet_slopes
@@ -253,15 +247,21 @@ contains
   end function state_at
 
   !> The gas and its conductances at a point's pressure and gap.
-  pure subroutine put_gas(law, flow, here)
+  pure subroutine put_gas(law, flow, here, factors)
     type(gas_law_type), intent(in) :: law
     type(film_flow_type), intent(in) :: flow
     type(point_type), intent(inout) :: here
+    type(gas_factors_type), intent(in), optional :: factors !! of another temperature
     type(jet_type) :: open, fluid, number
+    real(wp) :: slip
 
     here%gas = gas_state(law, here%p)
-    associate (gas => here%gas, p => here%p, h => here%h, &
-               slip => 6.0_wp*law%mean_free_path*law%ambient_pressure)
+    slip = 6.0_wp*law%mean_free_path*law%ambient_pressure
+    if (present(factors)) then
+      here%gas = changed(here%gas, factors)
+      slip = slip*factors%mean_free_path
+    end if
+    associate (gas => here%gas, p => here%p, h => here%h)
       open = jet_type(f=h**3 + slip*h**2/p, p=-slip*(h/p)**2, h=3.0_wp*h**2 + 2.0_wp*slip*h/p, &
                       pp=2.0_wp*slip*h**2/p**3, ph=-2.0_wp*slip*h/p**2, hh=6.0_wp*h + 2.0_wp*slip/p)
       ! r/(12 mu): from its product with mu.
@@ -280,6 +280,28 @@ contains
       here%across = product_of(here%across, turbulent_factor(number, across_factor))
     end associate
   end subroutine put_gas
+
+  !> The gas at another temperature.
+  elemental type(gas_state_type) function changed(gas, factors) result(state)
+    type(gas_state_type), intent(in) :: gas !! at that of its law
+    type(gas_factors_type), intent(in) :: factors
+
+    state%r = factors%density*gas%r
+    state%r_p = factors%density*gas%r_p
+    state%r_pp = factors%density*gas%r_pp
+    state%mu = factors%viscosity*gas%mu
+    state%mu_p = factors%viscosity*gas%mu_p
+    state%mu_pp = factors%viscosity*gas%mu_pp
+  end function changed
+
+  !> What temperatures make of the gas at a point; nothing where there are none.
+  pure type(gas_factors_type) function factors_at(point, factors) result(here)
+    integer, intent(in) :: point
+    type(gas_factors_type), intent(in), optional :: factors(:) !! at all points
+
+    here = gas_factors_type()
+    if (present(factors)) here = factors(point)
+  end function factors_at
 
   !> The factor 12/(12 + a Re^b).
   pure function turbulent_factor(number, factor) result(k)
@@ -345,13 +367,14 @@ contains
   !>      + \frac{h}{2} \frac{\partial p}{\partial x} \Bigr) \frac{r}{R} \, d\Omega $$
   !>
   !> The factor with the Reynolds number only with turbulence.
-  pure function general_friction(geometry, flow, law, pressure, gap, excess) result(drag)
+  pure function general_friction(geometry, flow, law, pressure, gap, excess, factors) result(drag)
     type(film_geometry_type), intent(in) :: geometry !! of the element
     type(film_flow_type), intent(in) :: flow         !! speed of the film
     type(gas_law_type), intent(in) :: law !! of the gas
     real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
+    type(gas_factors_type), intent(in), optional :: factors(:) !! of other temperatures there
     real(wp) :: drag                    !! [N]
     real(wp) :: shapes(size(gap), size(gap)), shear(3), h
     integer :: i
@@ -361,7 +384,7 @@ contains
     do i = 1, size(gap)
       h = dot_product(shapes(:, i), gap) + excess(i)
       shear = couette_shear(flow_here(flow, geometry%stretch(i)), law, &
-                            dot_product(shapes(:, i), pressure), h)
+                            dot_product(shapes(:, i), pressure), h, factors_at(i, factors))
       drag = drag + geometry%area(i)*geometry%stretch(i)* &
              (shear(1) + 0.5_wp*h*dot_product(geometry%gradient(1, :, i), pressure - pressure(1)))
     end do
@@ -369,7 +392,7 @@ contains
 
   !> Derivatives of that drag.
   pure subroutine general_friction_rates(geometry, flow, law, pressure, gap, excess, by_pressure, &
-                                         by_gap)
+                                         by_gap, factors)
     type(film_geometry_type), intent(in) :: geometry !! of the element
     type(film_flow_type), intent(in) :: flow         !! speed of the film
     type(gas_law_type), intent(in) :: law !! of the gas
@@ -377,6 +400,7 @@ contains
     real(wp), intent(in) :: gap(:)      !! at the nodes [m]
     real(wp), intent(in) :: excess(:)   !! of the gap at the Gauss points over the nodes' [m]
     real(wp), intent(out) :: by_pressure(:), by_gap(:) !! one a node [N/Pa], [N/m]
+    type(gas_factors_type), intent(in), optional :: factors(:) !! of other temperatures there
     real(wp) :: shapes(size(gap), size(gap)), shear(3), h
     integer :: i
 
@@ -388,7 +412,7 @@ contains
                  area => geometry%area(i)*geometry%stretch(i))
         h = dot_product(shape, gap) + excess(i)
         shear = couette_shear(flow_here(flow, geometry%stretch(i)), law, &
-                              dot_product(shape, pressure), h)
+                              dot_product(shape, pressure), h, factors_at(i, factors))
         by_pressure = by_pressure + area*(shear(2)*shape + 0.5_wp*h*along)
         by_gap = by_gap + area*(shear(3) + 0.5_wp*dot_product(along, pressure - pressure(1)))*shape
       end associate
@@ -398,16 +422,17 @@ contains
   !> Shear stress of the entrained flow, and its derivatives by pressure and gap.
   !>
   !> $$ \tau = \frac{2 \mu U}{h + 2 \lambda_a p_a/p} (1 + a Re^b) $$
-  pure function couette_shear(flow, law, pressure, gap) result(shear)
+  pure function couette_shear(flow, law, pressure, gap, factors) result(shear)
     type(film_flow_type), intent(in) :: flow
     type(gas_law_type), intent(in) :: law
     real(wp), intent(in) :: pressure, gap !! [Pa], [m]
+    type(gas_factors_type), intent(in) :: factors !! of another temperature
     real(wp) :: shear(3)                  !! [Pa], [1], [Pa/m]
     type(gas_state_type) :: gas
     real(wp) :: slip, laminar, added
 
-    gas = gas_state(law, pressure)
-    slip = 2.0_wp*law%mean_free_path*law%ambient_pressure/pressure
+    gas = changed(gas_state(law, pressure), factors)
+    slip = 2.0_wp*law%mean_free_path*factors%mean_free_path*law%ambient_pressure/pressure
     laminar = 2.0_wp*gas%mu*flow%entraining_speed/(gap + slip)
     added = 0.0_wp
     if (law%turbulent) then

@@ -18,11 +18,11 @@ module gfb_heated_film
   use gfb_kinds, only: wp
   use gfb_film_flow, only: film_flow_type, flow_here, upwind_weight, upwind_weight_derivative
   use gfb_film_geometry, only: film_geometry_type, film_shapes, most_film_nodes
-  use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, viscosity_sutherland, &
-                         viscosity_power, sutherland_temperature
+  use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_state, gas_state_type, &
+                         viscosity_sutherland, viscosity_power, sutherland_temperature
   implicit none (type, external)
   private
-  public :: heated_residual, heated_jacobian, heated_shear, relative_viscosity
+  public :: heated_residual, heated_jacobian, heated_shear, relative_viscosity, gas_factors
   ! For tests of the numbers with derivatives.
   public :: variable, operator(+), operator(-), operator(*), operator(/), sqrt
 
@@ -88,6 +88,7 @@ module gfb_heated_film
   type, public :: heated_state_type
     real(wp) :: field(most_film_nodes, heated_fields) = 0.0_wp !! [Pa], [m], [K], [K], [K]
     real(wp) :: excess(most_film_nodes) = 0.0_wp !! of the gap at the points over the nodes' [m]
+    real(wp) :: part = 1.0_wp !! of a difference of temperature that the gas feels [1]
   end type heated_state_type
 
 contains
@@ -112,7 +113,7 @@ contains
     do i = 1, n
       at = values_at(shapes(:, i), geometry%gradient(:, :, i), state, i)
       call point_numbers(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), at, &
-                         flux_x, flux_z, source, to_shaft, to_foil, shear)
+                         state%part, flux_x, flux_z, source, to_shaft, to_foil, shear)
       associate (area => geometry%area(i), shape => shapes(:, i), &
                  gradient => geometry%gradient(:, :, i))
         residual(:, row_mass) = residual(:, row_mass) &
@@ -145,7 +146,7 @@ contains
       at = values_at(shapes(:, i), geometry%gradient(:, :, i), state, i)
       now = variable(at, [(k, k=1, variables)])
       call point_duals(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), now, &
-                       flux_x, flux_z, source, to_shaft, to_foil, shear)
+                       state%part, flux_x, flux_z, source, to_shaft, to_foil, shear)
       associate (area => geometry%area(i), shape => shapes(:, i), &
                  gradient => geometry%gradient(:, :, i))
         do k = 1, variables
@@ -182,7 +183,7 @@ contains
     do i = 1, nodes
       call point_numbers(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
                          values_at(shapes(:, i), geometry%gradient(:, :, i), state, i), &
-                         flux_x, flux_z, source, to_shaft, to_foil, shear)
+                         state%part, flux_x, flux_z, source, to_shaft, to_foil, shear)
       power = power + geometry%area(i)*shear
     end do
   end function heated_shear
@@ -210,28 +211,31 @@ contains
 
   !> Fluxes of mass along x and z as the residual has them [Pa m2/s], heat that the gas takes less
   !> what it gets, heat into the walls, power of the drag [W/m2].
-  pure subroutine point_numbers(gas, flow, length, at, flux_x, flux_z, source, to_shaft, to_foil, &
-                                shear)
+  pure subroutine point_numbers(gas, flow, length, at, part, flux_x, flux_z, source, to_shaft, &
+                                to_foil, shear)
     type(heated_gas_type), intent(in) :: gas
     type(film_flow_type), intent(in) :: flow
     real(wp), intent(in) :: length !! of the element along x [m]
-    real(wp), intent(in) :: at(variables)
+    real(wp), intent(in) :: at(variables), part
     real(wp), intent(out) :: flux_x, flux_z, source, to_shaft, to_foil, shear
     real(wp) :: r, r_p, mu, mu_p, factor, factor_t, mean, mean_x, mean_z, free, open
+    real(wp) :: felt, felt_x, felt_z
     real(wp) :: conductance, x_slope, z_slope, viscosity, strong, moment, exchange, entrained
 
     include 'heated_point.inc'
   end subroutine point_numbers
 
   !> The same with derivatives by the variables.
-  pure subroutine point_duals(gas, flow, length, at, flux_x, flux_z, source, to_shaft, to_foil, &
-                              shear)
+  pure subroutine point_duals(gas, flow, length, at, part, flux_x, flux_z, source, to_shaft, &
+                              to_foil, shear)
     type(heated_gas_type), intent(in) :: gas
     type(film_flow_type), intent(in) :: flow
     real(wp), intent(in) :: length !! of the element along x [m]
     type(dual_type), intent(in) :: at(variables)
+    real(wp), intent(in) :: part
     type(dual_type), intent(out) :: flux_x, flux_z, source, to_shaft, to_foil, shear
     type(dual_type) :: r, r_p, mu, mu_p, factor, factor_t, mean, mean_x, mean_z, free, open
+    type(dual_type) :: felt, felt_x, felt_z
     type(dual_type) :: conductance, x_slope, z_slope, viscosity, strong, moment, exchange, entrained
 
     include 'heated_point.inc'
@@ -271,6 +275,26 @@ contains
       ratio(3) = ratio(1)*(rate**2 + bend)
     end associate
   end function relative_viscosity
+
+  !> What temperatures make of the gas at points of an element, beside its law at the reference
+  !> temperature: where heat stands still the film needs no more of it.
+  pure function gas_factors(gas, state, nodes) result(factors)
+    type(heated_gas_type), intent(in) :: gas !! its law and reference
+    type(heated_state_type), intent(in) :: state !! temperatures at the nodes
+    integer, intent(in) :: nodes !! of the element
+    type(gas_factors_type) :: factors(nodes)
+    real(wp) :: shapes(nodes, nodes), t, ratio(3)
+    integer :: i
+
+    shapes = film_shapes(nodes)
+    do i = 1, nodes
+      associate (at => matmul(shapes(:, i), state%field(:nodes, :)))
+        t = at(field_gas)
+        ratio = relative_viscosity(gas, t + (at(field_foil) - at(field_shaft))/6.0_wp)
+      end associate
+      factors(i) = gas_factors_type(gas%reference/t, ratio(1), ratio(1)*sqrt(t/gas%reference))
+    end do
+  end function gas_factors
 
   !> At a pressure and a mean temperature: r at the reference temperature and its slope, viscosity
   !> there and its slope, both by the pressure; viscosity's factor and its slope by the temperature.

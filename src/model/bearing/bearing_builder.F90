@@ -18,7 +18,8 @@ module gfb_bearing_builder
   use gfb_petsc_session, only: rank_count
   use gfb_aligned_mesh, only: align_stations
   use gfb_bore_profile, only: bore_kinks
-  use gfb_gas_film, only: put_bore
+  use gfb_gas_film, only: put_bore, freeze_film, frozen_heat_type
+  use gfb_heat_switch, only: follow_frozen
   use gfb_solid_contact, only: solid_contact_type
   use gfb_changed_foil, only: take_foil_numbers
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
@@ -45,18 +46,40 @@ contains
   !> The equations of a scene on a mesh of given size.
   !>
   !> Fails when the mesh cannot be cut into parts.
-  subroutine build_bearing(scene, plan, bearing, error)
+  subroutine build_bearing(scene, plan, bearing, error, frozen)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(bearing_plan_type), intent(in) :: plan !! what was decided about it
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    logical, intent(in), optional :: frozen !! heat does not change: all is at ambient temperature; default: it is solved for
+    type(scene_type) :: without
 
     call enter_stage('set-up')
-    call build_on_mesh(scene, film_mesh_of(scene, plan), plan%upwind, plan%floats, bearing, error)
+    without = scene
+    if (present(frozen)) without%thermal%present = scene%thermal%present .and. .not. frozen
+    call build_on_mesh(without, film_mesh_of(scene, plan), plan%upwind, plan%floats, bearing, error)
     if (allocated(error)) return
+    if (scene%thermal%present .and. .not. without%thermal%present) call freeze_at_ambient(heat_of(scene), bearing)
     bearing%point = operating_point(scene%operation)
     call leave_stage()
   end subroutine build_bearing
+
+  !> Films that are as warm as the gas that is drawn in.
+  pure subroutine freeze_at_ambient(heat, bearing)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    type(bearing_system_type), intent(inout) :: bearing !! without it
+    type(frozen_heat_type) :: film
+    integer :: i
+
+    film%gas = heat%gas
+    film%centrifugal = heat%centrifugal
+    do i = 1, size(bearing%pad)
+      associate (nodes => size(bearing%pad(i)%film%angle))
+        film%field = spread([heat%ambient, heat%ambient, heat%ambient, 0.0_wp], 1, nodes)
+        call freeze_film(bearing%pad(i)%film, film)
+      end associate
+    end do
+  end subroutine freeze_at_ambient
 
   !> The equations of a bearing on half the width for motions against those of the other half's mirror.
   !>
@@ -70,8 +93,18 @@ contains
 
     film = bearing%pad(1)%whole
     film%opposite = .true.
-    call build_on_mesh(scene, film, bearing%pad(1)%film%flow%upwind, bearing%floats, opposite, error)
+    call build_on_mesh(scene_of(scene, bearing), film, bearing%pad(1)%film%flow%upwind, bearing%floats, opposite, error)
+    if (.not. allocated(error)) call follow_frozen(bearing, opposite)
   end subroutine build_opposite
+
+  !> The scene, without heat where the bearing's temperatures stay as they are.
+  pure type(scene_type) function scene_of(scene, bearing) result(here)
+    type(scene_type), intent(in) :: scene !! that the bearing is of
+    type(bearing_system_type), intent(in) :: bearing
+
+    here = scene
+    here%thermal%present = scene%thermal%present .and. bearing%heat%present
+  end function scene_of
 
   !> The equations of a bearing that differs in numbers, on a mesh with as many elements, at the same point.
   !>
@@ -92,8 +125,10 @@ contains
       plan%axial = whole%axial()/plan%order*merge(2, 1, plan%half)
     end associate
     if (present(bearing_distance)) plan%bearing_distance = bearing_distance
-    call build_on_mesh(scene, film_mesh_of(scene, plan), bearing%pad(1)%film%flow%upwind, bearing%floats, other, error)
+    call build_on_mesh(scene_of(scene, bearing), film_mesh_of(scene, plan), bearing%pad(1)%film%flow%upwind, bearing%floats, &
+                       other, error)
     if (allocated(error)) return
+    call follow_frozen(bearing, other)
     other%point = bearing%point
     other%shaft_fixed = bearing%shaft_fixed
   end subroutine build_like

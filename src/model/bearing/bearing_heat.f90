@@ -10,7 +10,7 @@ module gfb_bearing_heat
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
-  public :: number_heat, growth_of, heat_sizes, row_of
+  public :: number_heat, growth_of, temperatures_at, heat_sizes, row_of
 
   real(wp), parameter, public :: heat_scale = 100.0_wp !! size of a temperature [K]
 
@@ -140,6 +140,24 @@ contains
       end do
     end associate
   end function growth_of
+
+  !> Temperatures at nodes of a pad's film: (nodes, 3) of gas, top foil and shaft [K].
+  pure function temperatures_at(heat, pad, mesh_node, rows, unknown) result(temperature)
+    type(film_heat_type), intent(in) :: heat !! of the bearing
+    integer, intent(in) :: pad !! its number
+    integer, intent(in) :: mesh_node(:) !! their numbers in its whole mesh
+    integer, intent(in) :: rows !! of that
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp) :: temperature(size(mesh_node), 3)
+    integer :: node
+
+    do node = 1, size(mesh_node)
+      associate (first => heat%first(pad) + 2*node, row => row_of(mesh_node(node), rows))
+        temperature(node, :) = [unknown(first - 1:first), &
+                                unknown(heat%first_wall + heat%shaft_wall(row))]
+      end associate
+    end do
+  end function temperatures_at
 
   !> Row of a node in a film's mesh.
   elemental integer function row_of(mesh_node, rows) result(row)

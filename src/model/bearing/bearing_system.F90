@@ -20,12 +20,11 @@ module gfb_bearing_system
   use gfb_contact_memory, only: visit_contacts
   use gfb_foil_momentum, only: foil_momentum_type
   use gfb_local_exchange, only: create_exchange
-  use gfb_bearing_heat, only: film_heat_type
   use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   implicit none (type)
   private
-  public :: create_bearing_system, add_heat, heat_flows, number_by, add_of_foil, bearing_order, path_order, visit_bearing, visit_switches
+  public :: create_bearing_system, set_up_equations, free_equations, heat_flows, number_by, add_of_foil, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
@@ -68,11 +67,13 @@ contains
     call set_up_equations(bearing)
   end subroutine create_bearing_system
 
-  !> Numbers the unknowns, and makes vectors and matrix.
+  !> Numbers the unknowns, and makes vectors and matrix; what the bearing holds of another, that it is a copy of, stays there.
   subroutine set_up_equations(bearing)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! pads, and heat where it is solved for
     PetscErrorCode :: ierr
 
+    if (allocated(bearing%unknown_scale)) deallocate (bearing%unknown_scale)
+    if (allocated(bearing%numbers)) deallocate (bearing%numbers)
     bearing%term = pad_terms(bearing%heat%present)
     bearing%dense_rows = bearing%floats .or. bearing%heat%present
     call number_unknowns(bearing)
@@ -86,27 +87,6 @@ contains
     call bearing%exchange%put(bearing%unknown_scale, bearing%right)
     if (bearing%is_meshed()) call fill_constant(bearing)
   end subroutine set_up_equations
-
-  !> Gives a bearing without heat its heat: all temperatures begin as that of the gas that is drawn in, all else stays. Whoever
-  !> solves its equations is created anew.
-  subroutine add_heat(bearing, heat)
-    type(bearing_system_type), intent(inout) :: bearing !! at a state
-    type(film_heat_type), intent(in) :: heat !! of it
-    real(wp) :: before(bearing%local_size())
-    real(wp), allocatable :: unknown(:)
-    integer :: pads !! their unknowns
-
-    pads = bearing%first_shaft
-    call bearing%get_unknowns(before)
-    call free_equations(bearing)
-    bearing%heat = heat
-    bearing%low_fill = .false.
-    call set_up_equations(bearing)
-    allocate (unknown(bearing%local_size()), source=heat%ambient)
-    unknown(:pads) = before(:pads)
-    unknown(bearing%first_shaft + 1:) = before(pads + 1:)
-    call bearing%set_unknowns(unknown)
-  end subroutine add_heat
 
   !> Matrix with room for what each row couples.
   subroutine create_bearing_matrix(bearing)
@@ -594,7 +574,7 @@ contains
 
   !> Frees vectors and matrix.
   subroutine free_equations(bearing)
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! keeps pads and foils
     PetscErrorCode :: ierr
     integer :: i
 

@@ -52,6 +52,7 @@ contains
       state%field(:n, field_foil) = unknown(first + 2*nodes)
       state%field(:n, field_shaft) = unknown(heat%first_wall + walls_of(heat, pad, nodes, .true.))
       state%excess = pad%film%excess(element, point)
+      state%part = point%growth
     end associate
   end function state_of
 

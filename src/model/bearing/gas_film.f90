@@ -9,20 +9,34 @@ module gfb_gas_film
   use gfb_film_surface, only: film_surface_type, shaft_coordinates, translations, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction, &
                            film_friction_rates
-  use gfb_gas_law, only: gas_law_type
+  use gfb_gas_law, only: gas_law_type, gas_factors_type
   use gfb_general_film, only: general_residual, general_jacobian, general_friction, &
                               general_friction_rates, general_peclet
   use gfb_squeeze_term, only: stored_gas, storage_residual, storage_jacobian
   use gfb_film_flow, only: film_flow_type, flow_here
   use gfb_reynolds_element, only: reynolds_residual, reynolds_jacobian
+  use gfb_heated_film, only: heated_gas_type, heated_state_type, heated_residual, heated_jacobian, &
+                             gas_factors, heated_rows, heated_fields, row_mass, field_pressure, &
+                             field_gap, field_gas, field_foil, field_shaft
   use gfb_film_mesh, only: film_mesh_type, gather_elements
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
-  public :: create_gas_film, put_bore, force_without_suction, film_drag, film_drag_rates, &
-            film_moment, square_integrals, film_peclet, film_midplane_gap
+  public :: create_gas_film, put_bore, freeze_film, force_without_suction, film_drag, &
+            film_drag_rates, film_moment, square_integrals, film_peclet, film_midplane_gap
 
   integer, parameter :: corners = 4 !! of a cell
+
+  !> Fields that stay: temperatures of gas, top foil and shaft, and what they take off the gap.
+  integer, parameter, public :: frozen_growth = 4, frozen_fields = 4
+
+  !> Temperatures that stay as they are: heat is slow against what the shaft does.
+  type, public :: frozen_heat_type
+    type(heated_gas_type) :: gas
+    real(wp), allocatable :: field(:, :) !! (nodes, fields), see `frozen_growth` [K], [m]
+    real(wp) :: centrifugal = 0.0_wp   !! the same by the speed squared [m s2]
+    type(gas_factors_type), allocatable :: factors(:, :) !! (points, elements)
+  end type frozen_heat_type
 
   !> Film elements and nodes of this rank.
   type, public :: gas_film_type
@@ -53,8 +67,9 @@ module gfb_gas_film
     real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
     real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
     real(wp), allocatable :: past(:, :) !! (points, elements) rate of r h by earlier ones [Pa m/s]
+    type(frozen_heat_type), allocatable :: frozen !! none: the gas has the temperature of its law
   contains
-    procedure :: flow_at, cell_flow, shadow
+    procedure :: flow_at, cell_flow, shadow, factors_of
     procedure :: gap => film_node_gap
     procedure :: excess => film_excess
     procedure :: is_open
@@ -170,6 +185,88 @@ contains
     end do
   end subroutine put_bore
 
+  !> Gives the film temperatures that stay.
+  pure subroutine freeze_film(film, frozen)
+    type(gas_film_type), intent(inout) :: film !! this rank's film
+    type(frozen_heat_type), intent(in) :: frozen !! its factors of the gas do not count
+    type(heated_state_type) :: state
+    type(gas_factors_type), allocatable :: factors(:, :)
+    integer :: element, n
+
+    n = size(film%shape, 1)
+    allocate (factors(n, size(film%element_nodes, 2)))
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element))
+        state%field(:n, field_gas:field_shaft) = frozen%field(nodes, :frozen_growth - 1)
+      end associate
+      factors(:, element) = gas_factors(frozen%gas, state, n)
+    end do
+    film%frozen = frozen_heat_type(frozen%gas, frozen%field, frozen%centrifugal, factors)
+    film%law = frozen%gas%law
+    film%law%plain = .false.
+  end subroutine freeze_film
+
+  !> What temperatures that stay make of the gas at the points of an element.
+  pure function factors_of(self, element) result(factors)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    integer, intent(in) :: element !! of this rank
+    type(gas_factors_type) :: factors(size(self%shape, 2))
+
+    factors = gas_factors_type()
+    if (allocated(self%frozen)) factors = self%frozen%factors(:, element)
+  end function factors_of
+
+  !> Fields of an element whose temperatures stay.
+  pure type(heated_state_type) function frozen_state(film, element, pressure, gap, excess) &
+    result(state)
+    type(gas_film_type), intent(in) :: film
+    integer, intent(in) :: element
+    real(wp), intent(in) :: pressure(:), gap(:) !! at its nodes [Pa], [m]
+    real(wp), intent(in) :: excess(:)           !! of the gap at its points [m]
+    integer :: n
+
+    n = size(pressure)
+    associate (nodes => film%element_nodes(:, element))
+      state%field(:n, field_pressure) = pressure
+      state%field(:n, field_gap) = gap
+      state%field(:n, field_gas:field_shaft) = film%frozen%field(nodes, :frozen_growth - 1)
+      state%excess(:n) = excess
+    end associate
+  end function frozen_state
+
+  !> An element's mass equations at temperatures that stay [Pa m3/s].
+  pure function frozen_residual(film, flow, element, pressure, gap, excess) result(residual)
+    type(gas_film_type), intent(in) :: film
+    type(film_flow_type), intent(in) :: flow
+    integer, intent(in) :: element
+    real(wp), intent(in) :: pressure(:), gap(:) !! at its nodes [Pa], [m]
+    real(wp), intent(in) :: excess(:)           !! of the gap at its points [m]
+    real(wp) :: residual(size(pressure)), all_rows(size(pressure), heated_rows)
+
+    call heated_residual(film%geometry(element), flow, film%frozen%gas, &
+                         frozen_state(film, element, pressure, gap, excess), all_rows)
+    residual = all_rows(:, row_mass)
+  end function frozen_residual
+
+  !> Their derivatives.
+  pure subroutine frozen_jacobian(film, flow, element, pressure, gap, excess, by_pressure, by_gap, &
+                                  by_excess)
+    type(gas_film_type), intent(in) :: film
+    type(film_flow_type), intent(in) :: flow
+    integer, intent(in) :: element
+    real(wp), intent(in) :: pressure(:), gap(:) !! at its nodes [Pa], [m]
+    real(wp), intent(in) :: excess(:)           !! of the gap at its points [m]
+    real(wp), intent(out) :: by_pressure(:, :), by_gap(:, :), by_excess(:, :) !! (nodes, nodes)
+    real(wp) :: by_field(size(gap), heated_rows, size(gap), heated_fields)
+    real(wp) :: every_excess(size(gap), heated_rows, size(gap))
+
+    call heated_jacobian(film%geometry(element), flow, film%frozen%gas, &
+                         frozen_state(film, element, pressure, gap, excess), by_field, every_excess)
+    by_pressure = by_field(:, row_mass, :, field_pressure)
+    by_gap = by_field(:, row_mass, :, field_gap)
+    by_excess = every_excess(:, row_mass, :)
+  end subroutine frozen_jacobian
+
   !> The gas as the shaft drags it at an operating point.
   pure function flow_at(self, point) result(flow)
     class(gas_film_type), intent(in) :: self !! this rank's film
@@ -214,6 +311,9 @@ contains
                                         eccentricity(2), point%place(3), point%place(4), &
                                         point%place(5))
     if (allocated(self%bore)) gap = gap - self%bore
+    if (allocated(self%frozen)) then
+      gap = gap - self%frozen%field(:, frozen_growth) - self%frozen%centrifugal*point%speed**2
+    end if
   end function film_node_gap
 
   !> What the rigid gap at an element's Gauss points has beyond what its nodal values give [m].
@@ -293,14 +393,17 @@ contains
         p(:n) = pressure(nodes)
         h(:n) = gap(nodes)
         excess = self%excess(element, point)
-        if (self%law%plain) then
+        if (allocated(self%frozen)) then
+          share(:n) = frozen_residual(self, flow, element, p(:n), h(:n), excess(:n))
+        else if (self%law%plain) then
           call reynolds_residual(geometry, flow, p(:n), h(:n), excess(:n), no_source(:n), share(:n))
         else
           call general_residual(geometry, flow, self%law, p(:n), h(:n), excess(:n), share(:n))
         end if
         if (allocated(self%past)) then
           share(:n) = share(:n) + storage_residual(geometry, flow, self%law, p(:n), h(:n), &
-                                                   excess(:n), self%storage, self%past(:, element))
+                                                   excess(:n), self%storage, &
+                                                   self%past(:, element), self%factors_of(element))
         end if
         flows(nodes) = flows(nodes) + share(:n)
       end associate
@@ -330,7 +433,10 @@ contains
       p(:n) = pressure(nodes)
       h(:n) = gap(nodes)
       excess = self%excess(element, point)
-      if (self%law%plain) then
+      if (allocated(self%frozen)) then
+        call frozen_jacobian(self, self%flow_at(point), element, p(:n), h(:n), excess(:n), &
+                             by_pressure, by_gap, by_excess)
+      else if (self%law%plain) then
         call reynolds_jacobian(self%geometry(element), self%flow_at(point), p(:n), h(:n), &
                                excess(:n), no_source(:n), by_pressure, by_gap, by_excess)
       else
@@ -340,7 +446,7 @@ contains
       if (allocated(self%past)) then
         call storage_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), h(:n), &
                               excess(:n), self%storage, self%past(:, element), by_pressure, &
-                              by_gap, by_excess)
+                              by_gap, by_excess, self%factors_of(element))
       end if
       by_shaft = 0.0_wp
       do i = 1, n
@@ -389,7 +495,7 @@ contains
       associate (nodes => self%element_nodes(:, element))
         excess = self%excess(element, point)
         stored(:, element) = stored_gas(self%law, pressure(nodes), gap(nodes), &
-                                        excess(:size(self%shape, 2)))
+                                        excess(:size(self%shape, 2)), self%factors_of(element))
       end associate
     end do
   end function film_stored
@@ -451,7 +557,7 @@ contains
       drag = film_friction(film%geometry(element), flow, pressure, gap, excess(:size(gap)))
     else
       drag = general_friction(film%geometry(element), flow, film%law, pressure, gap, &
-                              excess(:size(gap)))
+                              excess(:size(gap)), film%factors_of(element))
     end if
   end function element_drag
 
@@ -477,7 +583,8 @@ contains
           if (film%law%plain) then
             call film_friction_rates(geometry, flow, p, h, excess, of_pressure, of_gap)
           else
-            call general_friction_rates(geometry, flow, film%law, p, h, excess, of_pressure, of_gap)
+            call general_friction_rates(geometry, flow, film%law, p, h, excess, of_pressure, &
+                                        of_gap, film%factors_of(element))
           end if
         end associate
         by_pressure(nodes) = by_pressure(nodes) + film%copies*of_pressure
@@ -531,13 +638,15 @@ contains
     peclet = 0.0_wp
     flow = film%flow_at(point)
     do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
+      associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element), &
+                 factors => film%factors_of(element))
         if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
         do i = 1, size(film%shape, 2)
           peclet = max(peclet, abs(general_peclet(film%law, flow_here(flow, geometry%stretch(i)), &
                                                   geometry%stream_length(i), &
                                                   dot_product(film%shape(:, i), pressure(nodes)), &
-                                                  dot_product(film%shape(:, i), gap(nodes)))))
+                                                  dot_product(film%shape(:, i), gap(nodes)), &
+                                                  factors(i))))
         end do
       end associate
     end do

@@ -19,7 +19,7 @@ module gfb_operating_point
     !> Of a shaft that floats, over a step of time, with the gyroscopic torque of a tilt by the
     !> other's rate [N/m], [N m/rad].
     real(wp) :: inertia(shaft_coordinates, shaft_coordinates) = 0.0_wp
-    real(wp) :: growth = 1.0_wp !! part that counts of what temperatures add to the radii [1]
+    real(wp) :: growth = 1.0_wp !! part that counts of what temperatures do to radii and gas [1]
     real(wp) :: edge_pull(most_pads) = 0.0_wp !! fictitious, lifts a free edge of the top foils [N]
     real(wp) :: edge_tension(most_pads) = 0.0_wp !! fictitious, keeps that edge straight [N]
     real(wp) :: edge_hold(most_pads) = 0.0_wp !! fictitious, keeps a pad's edge at a height [N/m]

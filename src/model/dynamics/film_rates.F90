@@ -110,8 +110,9 @@ contains
       p = pressure(nodes)
       h = gap(nodes)
       excess = reshape(film%excess(element, point), [size(h)])
-      call squeeze_jacobian(geometry, film%law, squeeze_weights(geometry, film%flow_at(point), film%law, p, h, excess), &
-                            p, h, excess, by_pressure, by_gap, by_excess)
+      call squeeze_jacobian(geometry, film%law, &
+                            squeeze_weights(geometry, film%flow_at(point), film%law, p, h, excess, film%factors_of(element)), &
+                            p, h, excess, by_pressure, by_gap, by_excess, film%factors_of(element))
     end associate
   end subroutine element_squeeze
 

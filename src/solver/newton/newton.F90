@@ -37,7 +37,7 @@ module gfb_newton
   use gfb_work_bound, only: work_bound_type, count_factorization, is_spent, gave_up_words
   implicit none (type)
   private
-  public :: show_enlargements, create_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, &
+  public :: show_enlargements, create_newton, renew_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, &
             solve_transposed, forget_factors, destroy_newton, visit_counts, newton_report_type, work_bound_type
 
   !> How a solve ended.
@@ -217,6 +217,16 @@ contains
     end if
     newton%created = .true.
   end subroutine create_newton
+
+  !> Makes the solver anew for a system that takes the place of the one before; settings and counts go on.
+  subroutine renew_newton(newton, system, prefix)
+    type(newton_type), target, intent(inout) :: newton !! of the one before, which may be gone
+    class(nonlinear_system_type), target, intent(in) :: system !! with its state and its matrix
+    character(len=*), intent(in) :: prefix !! of PETSc's options
+
+    call destroy_newton(newton)
+    call create_newton(newton, system, prefix, newton%settings, newton%log)
+  end subroutine renew_newton
 
   !> Solves from the system's present state; on failure the state is where it stopped.
   subroutine solve_newton(newton, report)

@@ -12,10 +12,11 @@ module gfb_cold_start
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_system, only: bearing_system_type, add_heat
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_heat_switch, only: add_heat
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing, heat_of
-  use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
+  use gfb_newton, only: newton_type, newton_settings_type, create_newton, renew_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, drop_bearing, count_spent
   use gfb_saved_state, only: saved_state_type
@@ -273,7 +274,6 @@ contains
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
     type(scene_type), allocatable :: cold
-    integer :: iterations, factorizations, before
 
     cold = scene
     cold%thermal%present = .false.
@@ -286,14 +286,7 @@ contains
       bearing%pad%film%interference = scene%bearing%interference
       call add_heat(bearing, heat)
     end associate
-    iterations = newton%iterations
-    factorizations = newton%factorizations
-    before = newton%factorizations_before
-    call destroy_newton(newton)
-    call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    newton%iterations = iterations
-    newton%factorizations = factorizations
-    newton%factorizations_before = before
+    call renew_newton(newton, bearing, 'bearing_')
     bearing%point%growth = 0.0_wp
     call follow_path(bearing, newton, target, 1.0_wp, path_settings, report)
   end subroutine start_heated

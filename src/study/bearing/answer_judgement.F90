@@ -13,7 +13,8 @@ module gfb_answer_judgement
   use gfb_model_case, only: foil_shell
   use gfb_study_cases, only: quantity_words, parameter_type
   use gfb_sweep_case, only: swept_key_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, free_equations
+  use gfb_heat_switch, only: freeze_heat
   use gfb_newton, only: newton_type, find_determinant_sign
   use gfb_static_stiffness, only: find_edge_stiffness
   use gfb_stability, only: stability_type, find_stability
@@ -63,13 +64,20 @@ contains
     type(newton_type), intent(inout) :: newton !! its solver
     type(quantity_type), allocatable, intent(out) :: list(:) !! what is known of it
     type(stability_type) :: stability
+    type(bearing_system_type) :: frozen
     integer :: sign_of_determinant, i
     real(wp), allocatable :: stiffness(:)
     logical, allocatable :: known(:)
 
     allocate (list(0))
     if (scene%solver%stability) then
-      call find_stability(bearing, stability)
+      if (bearing%heat%present) then
+        call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+        call find_stability(frozen, stability)
+        call free_equations(frozen)
+      else
+        call find_stability(bearing, stability)
+      end if
       newton%factorizations = newton%factorizations + stability%factorizations
       newton%enlargements = newton%enlargements + stability%enlargements
       call log%line('stability: '//stability_words(stability, &

@@ -129,7 +129,7 @@ contains
       if (allocated(error)) return
       on_way = self%plan
       on_way%bearing_distance = self%here%rotor%distance_in_time ! the file was written on the way
-      call build_bearing(self%here, on_way, self%bearing, error)
+      call build_bearing(self%here, on_way, self%bearing, error, frozen=self%scene%transient%present)
       if (allocated(error)) return
       call create_newton(self%newton, self%bearing, 'bearing_', self%tolerances, log)
       call restore_bearing(self%here, restart, log, self%bearing, self%newton, self%record, error)

@@ -14,7 +14,8 @@ module gfb_dynamics
   use gfb_motion_cases, only: tangent_stick, frequencies_at
   use gfb_film_surface, only: journal_motions
   use gfb_foundation_foil, only: foundation_stiffness
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, free_equations
+  use gfb_heat_switch, only: freeze_heat
   use gfb_bearing_builder, only: build_opposite
   use gfb_newton, only: newton_type, show_enlargements
   use gfb_dynamic_response, only: dynamic_response_type, create_response, response_failure, destroy_response
@@ -41,7 +42,7 @@ contains
 
   !> Coefficients at the frequencies of the scene, the critical mass and the rotor's modes, where they are asked for; the bearing's
   !> state and equations are left as they are.
-  subroutine find_dynamics(scene, log, bearing, newton, record, found)
+  recursive subroutine find_dynamics(scene, log, bearing, newton, record, found)
     type(scene_type), intent(in) :: scene !! what is asked for, with the sweep's value in its keys
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
@@ -53,9 +54,16 @@ contains
     type(dynamic_response_type) :: response
     type(frequency_response_type) :: model
     type(dynamics_point_type) :: point
+    type(bearing_system_type) :: frozen
     logical :: first
 
     if (.not. scene%dynamics%present) return
+    if (bearing%heat%present) then
+      call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+      call find_dynamics(scene, log, frozen, newton, record, found)
+      call free_equations(frozen)
+      return
+    end if
     if (.not. allocated(record%point)) allocate (record%point(0))
     first = size(record%point) == 0
     allocate (found(0))
@@ -181,7 +189,7 @@ contains
 
   !> What is positive where the rotor is unstable: growth of its least damped mode at an answer, and with a loss factor,
   !> which has no growth, the excess of its mass over the critical one.
-  subroutine find_instability(scene, bearing, newton, excess, problem)
+  recursive subroutine find_instability(scene, bearing, newton, excess, problem)
     type(scene_type), intent(in) :: scene !! with a rotor
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
@@ -190,7 +198,14 @@ contains
     type(dynamic_response_type) :: response
     type(rotor_answer_type) :: answer
     type(whirl_type) :: whirl
+    type(bearing_system_type) :: frozen
 
+    if (bearing%heat%present) then
+      call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+      call find_instability(scene, frozen, newton, excess, problem)
+      call free_equations(frozen)
+      return
+    end if
     excess = 0.0_wp
     if (scene%dynamics%loss_factor > 0.0_wp) then
       call find_whirl(scene, bearing, newton, whirl, problem)
@@ -222,7 +237,7 @@ contains
   end function mass_excess
 
   !> The mass above which a rigid shaft whirls at an answer.
-  subroutine find_whirl(scene, bearing, newton, whirl, problem)
+  recursive subroutine find_whirl(scene, bearing, newton, whirl, problem)
     type(scene_type), intent(in) :: scene !! whose `&dynamics` says what the foil does
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
@@ -230,7 +245,14 @@ contains
     character(len=:), allocatable, intent(out) :: problem !! why it was not searched
     type(dynamic_response_type) :: response
     type(frequency_response_type) :: model
+    type(bearing_system_type) :: frozen
 
+    if (bearing%heat%present) then
+      call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+      call find_whirl(scene, frozen, newton, whirl, problem)
+      call free_equations(frozen)
+      return
+    end if
     call create_response(bearing, vibration_of(scene), response)
     call choose_mass(scene, bearing, response)
     call find_critical_mass(bearing, response, newton%log, model, whirl)
@@ -301,6 +323,9 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
 
+    if (scene%thermal%present) then
+      call log%line('heat: temperatures stay as they are, with the clearance they leave: they change in seconds')
+    end if
     if (.not. meshes_foils(scene%model%foil)) return
     call log%line('contacts: closed ones stay closed, and if they rub '// &
                   trim(merge('stick   ', 'slide on', scene%dynamics%contact_tangent == tangent_stick)))

@@ -6,9 +6,12 @@ module gfb_motion_study
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, free_equations
+  use gfb_heat_switch, only: freeze_heat
+  use gfb_model_case, only: foil_shell
+  use gfb_bearing_solution, only: bearing_solution_type
   use gfb_bearing_builder, only: build_like
-  use gfb_newton, only: newton_type, newton_settings_type, create_newton, forget_factors, destroy_newton
+  use gfb_newton, only: newton_type, renew_newton, forget_factors
   use gfb_run_log, only: run_log_type
   use gfb_bearing_record, only: bearing_record_type
   use gfb_case_file, only: case_array_type
@@ -54,6 +57,7 @@ contains
     associate (bearing => self%solution%bearing, newton => self%solution%newton, record => self%solution%record)
       if (.not. context%restart%continues) then
         call judge_first_point(self%solution)
+        call stop_heat(self%solution)
         if (scene%rotor%distance_in_time > 0.0_wp) call stand_on_two(scene, context%log, bearing, newton, record, error)
         if (allocated(error)) return
       end if
@@ -74,6 +78,7 @@ contains
     call self%bearing_study_type%find_answers(scene, context, error)
     if (allocated(error) .or. self%reason%is_given()) return
     allocate (self%motion)
+    call stop_heat(self%solution)
     call self%motion%run(scene, context, self%solution%bearing, self%solution%newton, self%reason)
     call self%solution%record%move_on(self%motion%results())
   end subroutine find_orbits
@@ -92,6 +97,23 @@ contains
     if (allocated(self%motion)) call self%motion%add_arrays(arrays)
   end subroutine add_orbits
 
+  !> From an equilibrium on all temperatures stay as they are.
+  subroutine stop_heat(solution)
+    type(bearing_solution_type), target, intent(inout) :: solution !! at its equilibrium
+    type(bearing_system_type) :: frozen
+
+    associate (bearing => solution%bearing, newton => solution%newton)
+      if (.not. bearing%heat%present) return
+      call forget_factors(newton)
+      call freeze_heat(bearing, solution%scene%model%foil /= foil_shell, frozen)
+      call free_equations(bearing)
+      bearing = frozen
+      call renew_newton(newton, bearing, 'bearing_')
+    end associate
+    call solution%context%log%line('heat: temperatures stay as they are here, with the clearance they leave: they change in seconds, '// &
+                                   'the shaft moves in milliseconds')
+  end subroutine stop_heat
+
   !> Puts a second bearing beside the first one, and the rotor on both.
   !>
   !> Their pads are those of one system of equations, with the rotor's displacement and its tilts as unknowns; forces, and
@@ -104,23 +126,15 @@ contains
     type(bearing_record_type), intent(inout) :: record !! of the equilibrium; gets the contacts of the second one
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(bearing_system_type) :: both
-    type(newton_settings_type) :: settings
-    integer :: counts(4), steps, i
+    integer :: steps, i
 
-    settings = newton%settings
-    counts = [newton%iterations, newton%factorizations, newton%factorizations_before, newton%enlargements]
     call forget_factors(newton)
-    call destroy_newton(newton)
     call build_like(scene, bearing, both, error, scene%rotor%distance_in_time)
     if (allocated(error)) return
     call take_state(bearing, both)
     call bearing%destroy()
     bearing = both
-    call create_newton(newton, bearing, 'bearing_', settings, log)
-    newton%iterations = counts(1)
-    newton%factorizations = counts(2)
-    newton%factorizations_before = counts(3)
-    newton%enlargements = counts(4)
+    call renew_newton(newton, bearing, 'bearing_')
     if (allocated(record%contacts%value)) then
       steps = size(record%contacts%value, 3)
       record%contacts%value = reshape([(record%contacts%value(:, :, i), record%contacts%value(:, :, i), i=1, steps)], &

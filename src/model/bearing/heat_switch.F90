@@ -1,0 +1,122 @@
+#include "gfb_petsc.h"
+!> Heat comes to a bearing, or stays as it is from an answer on.
+module gfb_heat_switch
+  use petscvec
+  use gfb_kinds, only: wp
+  use gfb_archive, only: archive_type
+  use gfb_natural_order, only: visit_vector
+  use gfb_gas_film, only: frozen_heat_type, freeze_film, frozen_fields, frozen_growth
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_heat, only: film_heat_type, growth_of, temperatures_at
+  use gfb_bearing_system, only: bearing_system_type, bearing_order, set_up_equations, free_equations
+  implicit none (type)
+  private
+  public :: add_heat, freeze_heat, follow_frozen, visit_frozen
+
+contains
+
+  !> Gives a bearing without heat its heat: all temperatures begin as that of the gas that is drawn in, all else stays. Whoever
+  !> solves its equations is created anew.
+  subroutine add_heat(bearing, heat)
+    type(bearing_system_type), intent(inout) :: bearing !! at a state
+    type(film_heat_type), intent(in) :: heat !! of it
+    real(wp) :: before(bearing%local_size())
+    real(wp), allocatable :: unknown(:)
+    integer :: pads !! their unknowns
+
+    pads = bearing%first_shaft
+    call bearing%get_unknowns(before)
+    call free_equations(bearing)
+    bearing%heat = heat
+    bearing%low_fill = .false.
+    call set_up_equations(bearing)
+    allocate (unknown(bearing%local_size()), source=heat%ambient)
+    unknown(:pads) = before(:pads)
+    unknown(bearing%first_shaft + 1:) = before(pads + 1:)
+    call bearing%set_unknowns(unknown)
+  end subroutine add_heat
+
+  !> The bearing at its answer, all temperatures as they are there from now on: heat is slow against what a shaft does. It shares
+  !> the foils; `free_equations` frees what it has of its own.
+  subroutine freeze_heat(bearing, low_fill, frozen)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    logical, intent(in) :: low_fill !! of the equations without it
+    type(bearing_system_type), intent(out) :: frozen
+    real(wp) :: unknown(bearing%local_size())
+    type(frozen_heat_type) :: film
+    type(operating_point_type) :: at_rest
+    integer :: i
+
+    call bearing%get_unknowns(unknown)
+    frozen = bearing
+    film%gas = bearing%heat%gas
+    film%centrifugal = bearing%heat%centrifugal
+    at_rest = bearing%point
+    at_rest%speed = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        allocate (film%field(size(pad%mesh%mesh_node), frozen_fields))
+        film%field(:, :frozen_growth - 1) = temperatures_at(bearing%heat, i, pad%mesh%mesh_node, pad%whole%rows(), unknown)
+        film%field(:, frozen_growth) = growth_of(bearing%heat, pad%mesh%mesh_node, pad%whole%rows(), at_rest, unknown)
+        call freeze_film(frozen%pad(i)%film, film)
+        deallocate (film%field)
+      end associate
+    end do
+    frozen%heat = film_heat_type()
+    frozen%low_fill = low_fill
+    call set_up_equations(frozen)
+    call frozen%set_unknowns([unknown(:bearing%heat%first(1)), unknown(bearing%first_shaft + 1:)])
+  end subroutine freeze_heat
+
+  !> Gives films that have none the temperatures of others, which are meshed alike; of two bearings both have them.
+  subroutine follow_frozen(bearing, other)
+    type(bearing_system_type), intent(in) :: bearing !! whose temperatures may stay as they are
+    type(bearing_system_type), intent(inout) :: other !! without heat
+    integer :: i
+
+    do i = 1, size(other%pad)
+      associate (film => bearing%pad(modulo(i - 1, size(bearing%pad)) + 1)%film)
+        if (allocated(film%frozen)) call freeze_film(other%pad(i)%film, film%frozen)
+      end associate
+    end do
+  end subroutine follow_frozen
+
+  !> Saves or restores temperatures that stay as they are, and the growth by them. All ranks ask.
+  subroutine visit_frozen(archive, bearing)
+    type(archive_type), intent(inout) :: archive !! that saves or restores
+    type(bearing_system_type), intent(inout) :: bearing !! whose films may have them
+    character(len=*), parameter :: name(frozen_fields) = [character(len=20) :: 'gas_temperature', 'top_foil_temperature', 'shaft_temperature', &
+                                                                   'growth']
+    real(wp) :: value(bearing%local_size())
+    type(frozen_heat_type) :: film
+    Vec :: vector
+    PetscErrorCode :: ierr
+    integer :: i, k
+
+    if (.not. allocated(bearing%pad(1)%film%frozen)) return
+    PetscCallA(VecDuplicate(bearing%state, vector, ierr))
+    do k = 1, size(name)
+      value = 0.0_wp
+      do i = 1, size(bearing%pad)
+        associate (pad => bearing%pad(i), nodes => size(bearing%pad(i)%film%angle))
+          value(pad%first + 1:pad%first + nodes) = pad%film%frozen%field(:, k)
+        end associate
+      end do
+      call bearing%exchange%put(value, vector)
+      call visit_vector(archive, trim(name(k)), bearing_order(bearing), vector)
+      if (archive%saves) cycle
+      call bearing%exchange%get(vector, value)
+      do i = 1, size(bearing%pad)
+        associate (pad => bearing%pad(i), nodes => size(bearing%pad(i)%film%angle))
+          bearing%pad(i)%film%frozen%field(:, k) = value(pad%first + 1:pad%first + nodes)
+        end associate
+      end do
+    end do
+    PetscCallA(VecDestroy(vector, ierr))
+    if (archive%saves) return
+    do i = 1, size(bearing%pad)
+      film = bearing%pad(i)%film%frozen
+      call freeze_film(bearing%pad(i)%film, film)
+    end do
+  end subroutine visit_frozen
+end module gfb_heat_switch
