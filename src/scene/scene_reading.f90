@@ -164,10 +164,12 @@ contains
     case ('operation')
       if (key /= 'speed_rpm') problem = 'it chooses the first answer, the others follow that'
     case ('top_foil')
-      if (.not. foils) problem = needs_foils()
+      if (.not. (foils .or. (scene%thermal%present .and. key == 'thickness'))) then
+        problem = needs_foils()
+      end if
     case ('bump_foil')
       if (springs .and. .not. computed) problem = 'foundation_stiffness in &model is given'
-      if (computed .and. any(key == ['height', 'width '])) then
+      if (computed .and. any(key == ['height', 'width ']) .and. .not. scene%thermal%present) then
         problem = 'the stiffness by Walowit-Anno does not depend on it'
       end if
       if (.not. foils .and. .not. springs) problem = needs_foils()

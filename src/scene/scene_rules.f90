@@ -17,6 +17,7 @@ module gfb_scene_rules
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
+  use gfb_study_cases, only: quantities_without_heat
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: join, text
@@ -58,11 +59,13 @@ contains
   subroutine check_heat(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: not_yet = 'not yet with &thermal'
 
+    call keys%rule('sensitivity', 'quantity', .not. scene%thermal%present .and. &
+                   any(scene%sensitivity%quantity(quantities_without_heat + 1:)), &
+                   'names a result of heat, which needs &thermal')
     if (.not. (scene%thermal%present .and. is_bearing(scene%general%analysis))) return
-    call keys%rule('sensitivity', 'parameters', scene%sensitivity%present, not_yet)
-    call keys%rule('shaft_contact', 'roughness', scene%shaft_contact%present, not_yet)
+    call keys%rule('shaft_contact', 'roughness', scene%shaft_contact%present, &
+                   'not yet with &thermal')
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                    "must be 'monolithic' with &thermal")
     call keys%rule('model', 'half_width', scene%model%half_width == half_width_yes .and. &

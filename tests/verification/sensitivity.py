@@ -14,6 +14,9 @@ NAMES = ("eccentricity_x", "eccentricity_y", "attitude_angle", "friction_torque"
          "maximum_pressure", "minimum_pressure")
 FIXED_NAMES = ("attitude_angle", "force_x", "force_y", "torque_x", "torque_y", "friction_torque", "power_loss", "minimum_gap",
                "maximum_pressure", "minimum_pressure")
+HEAT_NAMES = ("film_temperature", "maximum_film_temperature", "top_foil_temperature", "maximum_top_foil_temperature",
+              "shaft_temperature", "sleeve_temperature", "inlet_temperature", "cooling_outlet_temperature", "heat_to_shaft",
+              "heat_to_top_foil", "heat_through_bumps", "heat_to_channel", "heat_by_gas", "running_clearance")
 SPRINGS = {
     "scene": {"analysis": "equilibrium"},
     "bearing": {"radius": 0.01905, "length": 0.0381, "clearance": 3.18e-5},
@@ -113,6 +116,27 @@ def check_film(checks, folder):
     check_differences(checks, folder, "fixed and tilted", fixed, dict.fromkeys(FILM_KEYS[:4], 3.0e-5), FIXED_NAMES)
 
 
+def check_heat(checks, folder):
+    """Every result of heat, by walls and geometry: a shaft that conducts along itself over a cooled channel; foils as structures."""
+    heat = {"bump_conductance": 190.0, "sleeve_conductance": 1.0, "shaft_expansion": 1.2e-5, "sleeve_expansion": 1.0e-5,
+            "shaft_density": 7850.0, "shaft_youngs_modulus": 2.1e11, "shaft_poissons_ratio": 0.3, "ambient_temperature": 293.15}
+    gas = {"viscosity": None, "viscosity_law": "sutherland"}
+    cooled = with_keys(SPRINGS, gas=gas, top_foil={"thickness": 1.02e-4}, mesh={"circumferential_elements": 32, "axial_elements": 8},
+                       bump_foil={"height": 5.08e-4}, thermal={
+        **heat, "shaft": "fin", "shaft_end_conductance": (0.1, 0.2), "cooling_flow": 5.0e-4, "channel_conductance": 100.0,
+        "channel_sleeve_conductance": 60.0, "carry_over": 0.7})
+    check_differences(checks, folder, "cooled", cooled, dict.fromkeys(
+        ("thermal%bump_conductance", "thermal%cooling_flow", "thermal%shaft_expansion", "thermal%carry_over", "bearing%clearance",
+         "operation%speed_rpm", "top_foil%thickness", "bearing%radius"), 3.0e-5), NAMES + HEAT_NAMES)
+    one, two = (derived(folder, cooled, ("thermal%shaft_expansion",), HEAT_NAMES, ranks) for ranks in (1, 2))
+    for name in HEAT_NAMES:
+        slope = slope_name(name, "thermal%shaft_expansion")
+        checks.below(f"cooled, 2 ranks: {slope}", two[slope]/one[slope] - 1.0, LIMIT)
+    plain = tuple(name for name in HEAT_NAMES if name not in ("cooling_outlet_temperature", "heat_to_channel"))
+    check_differences(checks, folder, "shells with heat", with_keys(foils("shell", 0.1), gas=gas, thermal={**heat, "shaft_conductance": 0.3}),
+                      {"thermal%shaft_conductance": 1.0e-4, "bump_foil%thickness": 1.0e-4, "gas%ambient_pressure": 3.0e-5}, NAMES + plain)
+
+
 def check_foils(checks, folder):
     """Shells and beams, with friction and without; pressures scale foils as well."""
     shells = foils("shell", 0.1)
@@ -192,6 +216,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         check_film(checks, folder)
         check_tolerances_and_sweep(checks, folder)
+        check_heat(checks, folder)
         check_foils(checks, folder)
         check_lists(checks, folder)
     checks.close()

@@ -22,7 +22,8 @@ module gfb_heated_film
                          viscosity_sutherland, viscosity_power, sutherland_temperature
   implicit none (type, external)
   private
-  public :: heated_residual, heated_jacobian, heated_shear, relative_viscosity, gas_factors
+  public :: heated_residual, heated_jacobian, heated_shear, heated_shear_rates, gas_factors
+  public :: relative_viscosity
   ! For tests of the numbers with derivatives.
   public :: variable, operator(+), operator(-), operator(*), operator(/), sqrt
 
@@ -187,6 +188,39 @@ contains
       power = power + geometry%area(i)*shear
     end do
   end function heated_shear
+
+  !> Exact derivatives of `heated_shear` by the nodal fields, and by the excess of the gap.
+  pure subroutine heated_shear_rates(geometry, flow, gas, state, by_field, by_excess)
+    type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(film_flow_type), intent(in) :: flow !! speed and weighting of the film
+    type(heated_gas_type), intent(in) :: gas !! that carries the heat
+    type(heated_state_type), intent(in) :: state !! at the nodes
+    real(wp), intent(out) :: by_field(:, :) !! (nodes, fields) [W/Pa], [W/m], [W/K]
+    real(wp), intent(out) :: by_excess(:)   !! (points) [W/m]
+    real(wp) :: shapes(size(by_excess), size(by_excess)), at(variables)
+    type(dual_type) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    integer :: i, k
+
+    shapes = film_shapes(size(by_excess))
+    by_field = 0.0_wp
+    do i = 1, size(by_excess)
+      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i))
+        at = values_at(shape, gradient, state, i)
+        call point_duals(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
+                         variable(at, [(k, k=1, variables)]), state%part, flux_x, flux_z, source, &
+                         to_shaft, to_foil, shear)
+        associate (rate => geometry%area(i)*shear%d)
+          by_excess(i) = rate(4)
+          do k = 1, heated_fields - 1
+            by_field(:, k) = by_field(:, k) + rate(3*k - 2)*shape &
+              + matmul(rate(3*k - 1:3*k), gradient)
+          end do
+          by_field(:, field_shaft) = by_field(:, field_shaft) + rate(13)*shape &
+            + rate(14)*gradient(2, :)
+        end associate
+      end associate
+    end do
+  end subroutine heated_shear_rates
 
   !> The variables at a point: p, h, T, T_f with their slopes along x and z, T_s with that along z.
   pure function values_at(shape, gradient, state, point) result(at)

@@ -247,7 +247,23 @@ contains
       end associate
     end do
     call take_film_numbers(scene, bearing)
+    if (bearing%heat%present) call take_heat_numbers(heat_of(scene), bearing%heat)
   end subroutine take_numbers
+
+  !> Heat with other numbers, its unknowns as they stand.
+  pure subroutine take_heat_numbers(other, heat)
+    type(film_heat_type), intent(in) :: other !! with as many walls, not numbered
+    type(film_heat_type), intent(inout) :: heat
+    type(film_heat_type) :: before
+
+    before = heat
+    heat = other
+    heat%first = before%first
+    heat%first_wall = before%first_wall
+    heat%walls = before%walls
+    heat%shafts = before%shafts
+    heat%channels = before%channels
+  end subroutine take_heat_numbers
 
   !> Where the pads stand: the preload m moves the centre of each towards the shaft, so that its gap is less by
   !> \( m C \cos(\theta - \theta_p) \). Of two bearings of a rotor that tilts the pads of the first one, at +z, come first.

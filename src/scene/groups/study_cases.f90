@@ -74,10 +74,14 @@ module gfb_study_cases
   integer, parameter :: most_tolerances = 1000 !! of a list
 
   !> Results whose derivatives are offered, in the order in which the solver has them.
-  character(len=*), parameter, public :: quantity_words(*) = [character(len=16) :: &
+  character(len=*), parameter, public :: quantity_words(*) = [character(len=28) :: &
     'eccentricity_x', 'eccentricity_y', 'attitude_angle', 'force_x', 'force_y', 'torque_x', &
     'torque_y', 'friction_torque', 'power_loss', 'minimum_gap', 'maximum_pressure', &
-    'minimum_pressure']
+    'minimum_pressure', 'film_temperature', 'maximum_film_temperature', 'top_foil_temperature', &
+    'maximum_top_foil_temperature', 'shaft_temperature', 'sleeve_temperature', &
+    'inlet_temperature', 'cooling_outlet_temperature', 'heat_to_shaft', 'heat_to_top_foil', &
+    'heat_through_bumps', 'heat_to_channel', 'heat_by_gas', 'running_clearance']
+  integer, parameter, public :: quantities_without_heat = 12 !! the first ones
 
   !> A key by which results are derived.
   type, public :: parameter_type

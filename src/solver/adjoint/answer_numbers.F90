@@ -11,18 +11,28 @@ module gfb_answer_numbers
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, heat_flows
+  use gfb_heated_film, only: heated_state_type, heated_jacobian, heated_shear_rates, heated_rows, heated_fields, row_foil, row_shaft, &
+                             field_pressure, field_gap, field_gas, field_foil, field_shaft
+  use gfb_film_heat, only: state_of, walls_of
+  use gfb_heat_answer, only: heat_answer_type, heat_answer
   implicit none (type)
   private
   public :: find_extremes, measure, measure_gradient
 
   integer, parameter, public :: place_e = 1, place_force = 3, place_torque = 7, place_speed = 8 !! first numbers of each kind
-  integer, parameter, public :: place_extremes = 9, numbers = 11
+  integer, parameter, public :: place_extremes = 9, place_heat = 12, numbers = 25
   integer, parameter :: extremes = 3 !! smallest gap, largest and smallest pressure
+  !> numbers of heat: temperatures
+  integer, parameter :: of_film = place_heat, of_hottest_film = of_film + 1, of_top_foil = of_film + 2, of_hottest_foil = of_film + 3, &
+                        of_shaft = of_film + 4, of_sleeve = of_film + 5, of_inlet = of_film + 6, of_outlet = of_film + 7
+  !> ways of the heat, and the clearance that is left
+  integer, parameter :: to_shaft = of_film + 8, to_top_foil = of_film + 9, through_bumps = of_film + 10, to_channel = of_film + 11, &
+                        by_gas = of_film + 12, left_clearance = of_film + 13
 
-  !> The film nodes of extreme values, 0 on all ranks but one.
+  !> The film nodes of extreme values, 0 on all ranks but one; with heat those of the hottest film and top foil, too.
   type, public :: extreme_nodes_type
-    integer :: node(extremes) = 0
+    integer :: node(extremes + 2) = 0
   end type extreme_nodes_type
 
   !> How the foils of a pad move.
@@ -44,24 +54,45 @@ contains
   subroutine find_extremes(bearing, where_they_are)
     type(bearing_system_type), intent(in) :: bearing !! at an answer
     type(extreme_nodes_type), intent(out) :: where_they_are !! on this rank
-    real(wp) :: unknown(bearing%local_size()), value(bearing%film_nodes(), extremes), most(extremes), here(extremes)
+    real(wp) :: unknown(bearing%local_size()), value(bearing%film_nodes(), extremes + 2)
+    real(wp), dimension(extremes + 2) :: most, here
     integer :: i
 
     call bearing%get_unknowns(unknown)
     value(:, 1) = -bearing%gap(unknown)
     value(:, 2) = bearing%film_pressure(unknown)
     value(:, 3) = -value(:, 2)
+    value(:, 4:) = 0.0_wp
+    if (bearing%heat%present) then
+      value(:, 4) = mean_temperature(bearing, unknown)
+      value(:, 5) = bearing%film_temperature(unknown, 2)
+    end if
     here = maxval(value, 1)
     most = largest_over_ranks(here)
     ! one of those ranks that have the node
     here = largest_over_ranks(merge(real(this_rank() + 1, wp), 0.0_wp, here >= most))
-    do i = 1, extremes
+    do i = 1, merge(size(here), extremes, bearing%heat%present)
       if (nint(here(i)) == this_rank() + 1) where_they_are%node(i) = maxloc(value(:, i), 1)
     end do
   end subroutine find_extremes
 
+  !> Mean temperature over the gap at this rank's film nodes, pad by pad [K].
+  function mean_temperature(bearing, unknown) result(mean)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp) :: mean(bearing%film_nodes())
+    integer :: i, k
+
+    mean = bearing%film_temperature(unknown, 1) + bearing%film_temperature(unknown, 2)/6.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), here => mean(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node), heat => bearing%heat)
+        here = here - unknown(heat%first_wall + walls_of(heat, pad, [(k, k=1, size(here))], .true.))/6.0_wp
+      end associate
+    end do
+  end function mean_temperature
+
   !> Eccentricity [m], forces and torques on the sleeve [N], [N m], friction torque [N m], speed [rad/s], the values
-  !> at the extreme nodes [m], [Pa].
+  !> at the extreme nodes [m], [Pa]; with heat temperatures [K], its ways [W], the clearance that is left [m].
   function measure(bearing, unknown, point, nodes) result(number)
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: unknown(:) !! local, in SI
@@ -81,7 +112,7 @@ contains
     number(place_force:place_torque - 1) = force(journal_coordinates)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
-        number(place_torque) = number(place_torque) + pad%film%surface%radius* &
+        if (.not. bearing%heat%present) number(place_torque) = number(place_torque) + pad%film%surface%radius* &
           film_drag(pad%film, pressure(first:last), gap(first:last), here)
         if (.not. pad%contact%present) cycle
         number(place_torque) = number(place_torque) + pad%film%surface%radius*pad%contact%friction* &
@@ -95,14 +126,39 @@ contains
     number = sum_over_ranks(number)
     number(place_e:place_e + 1) = here%place(:2)
     number(place_speed) = point%speed
+    if (bearing%heat%present) call measure_heat(bearing, here, unknown, gap, number)
   end function measure
+
+  !> Numbers of heat, and the film's share of the friction torque. Heat that the gas carries is what is left: energy closes.
+  subroutine measure_heat(bearing, here, unknown, gap, number)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    type(operating_point_type), intent(in) :: here !! with the shaft's position
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp), intent(in) :: gap(:) !! at all film nodes [m]
+    real(wp), intent(inout) :: number(:)
+    real(wp) :: value(size(unknown))
+    type(heat_answer_type) :: heat
+
+    value = 0.0_wp
+    heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, heat_flows(bearing, here, unknown, gap, value))
+    associate (whole => heat%whole)
+      if (abs(here%speed) > 0.0_wp) number(place_torque) = number(place_torque) + whole%power/here%speed
+      number(of_film:of_hottest_foil) = [whole%film_temperature, whole%maximum_film_temperature, whole%top_foil_temperature, &
+                                         whole%maximum_top_foil_temperature]
+      number(of_shaft:of_outlet) = [heat%shaft_temperature, heat%sleeve_temperature, whole%inlet_temperature, &
+                                    heat%cooling_outlet_temperature]
+      number(to_shaft:to_channel) = [whole%to_shaft, whole%to_top_foil, whole%through_bumps, whole%to_channel]
+      number(by_gas) = whole%power - whole%to_shaft - whole%to_top_foil
+      number(left_clearance) = heat%running_clearance
+    end associate
+  end subroutine measure_heat
 
   !> This rank's shares of the derivatives of these numbers by the local unknowns, at the present state and point.
   subroutine measure_gradient(bearing, nodes, gradient)
     type(bearing_system_type), intent(in) :: bearing !! at an answer
     type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
-    real(wp), intent(out) :: gradient(:, :) !! (local unknowns, numbers) [SI]
-    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), by_gap(bearing%film_nodes(), numbers)
+    real(wp), intent(out) :: gradient(:, :) !! (local unknowns, numbers; without heat those before its) [SI]
+    real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), by_gap(bearing%film_nodes(), size(gradient, 2))
     integer :: i
 
     call bearing%get_unknowns(unknown)
@@ -117,9 +173,14 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
         call add_forces(pad, gap(first:last), gradient(pad%first + 1:pad%last, :), by_gap(first:last, :))
-        call add_drag(bearing, pad, unknown, gap(first:last), gradient, by_gap(first:last, :))
+        if (bearing%heat%present) then
+          call add_pad_heat(bearing, i, unknown, gap(first:last), gradient, by_gap(first:last, :))
+        else
+          call add_drag(bearing, pad, unknown, gap(first:last), gradient, by_gap(first:last, :))
+        end if
       end associate
     end do
+    if (bearing%heat%present) call finish_heat(bearing, nodes, gradient, by_gap)
     call add_extremes(bearing, nodes, gradient, by_gap)
     do i = 1, size(bearing%pad)
       call follow_gap(bearing, bearing%pad(i), by_gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node, :), gradient)
@@ -175,6 +236,156 @@ contains
     end associate
   end subroutine add_drag
 
+  !> Adds a pad's integrals of heat: of temperatures times what they are weighted with, by power in the torque's place.
+  subroutine add_pad_heat(bearing, number, unknown, gap, gradient, by_gap)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    integer, intent(in) :: number !! of the pad
+    real(wp), intent(in) :: unknown(:) !! the bearing's, in SI
+    real(wp), intent(in) :: gap(:)     !! at the pad's nodes [m]
+    real(wp), intent(inout) :: gradient(:, :), by_gap(:, :) !! (bearing's unknowns or pad's nodes, numbers)
+    type(heated_state_type) :: state
+    type(operating_point_type) :: here
+    real(wp) :: rate(size(bearing%pad(1)%film%shape, 1), heated_rows, size(bearing%pad(1)%film%shape, 1), heated_fields)
+    real(wp) :: of_excess(size(rate, 1), heated_rows, size(rate, 1)), shear(size(rate, 1), heated_fields), of_shear(size(rate, 1))
+    real(wp) :: by(size(rate, 1), heated_fields, numbers), by_excess(size(rate, 1), numbers), mean(size(rate, 1)), whole(2)
+    integer :: element, k, n
+
+    n = size(rate, 1)
+    here = bearing%position(unknown)
+    whole = film_sums(bearing, unknown)
+    associate (heat => bearing%heat, pad => bearing%pad(number), film => bearing%pad(number)%film)
+      do element = 1, size(film%element_nodes, 2)
+        state = state_of(heat, pad, number, element, here, unknown, gap)
+        call heated_jacobian(film%geometry(element), film%flow_at(here), heat%gas, state, rate, of_excess)
+        call heated_shear_rates(film%geometry(element), film%flow_at(here), heat%gas, state, shear, of_shear)
+        by = 0.0_wp
+        by_excess = 0.0_wp
+        by(:, :, to_shaft) = sum(rate(:, row_shaft, :, :), 1)
+        by_excess(:, to_shaft) = sum(of_excess(:, row_shaft, :), 1)
+        by(:, :, to_top_foil) = sum(rate(:, row_foil, :, :), 1)
+        by_excess(:, to_top_foil) = sum(of_excess(:, row_foil, :), 1)
+        by(:, :, place_torque) = shear
+        by_excess(:, place_torque) = of_shear
+        mean = state%field(:n, field_gas) - (state%field(:n, field_shaft) - state%field(:n, field_foil))/6.0_wp
+        associate (area => film%geometry(element)%area, shape => film%shape, &
+                   h => matmul(state%field(:n, field_gap), film%shape) + state%excess(:n))
+          associate (gas => matmul(shape, area*h)/whole(1), off => area*(matmul(mean, shape) - whole(2))/whole(1))
+            by(:, field_gas, of_film) = gas
+            by(:, field_foil, of_film) = gas/6.0_wp
+            by(:, field_shaft, of_film) = -gas/6.0_wp
+            by(:, field_gap, of_film) = matmul(shape, off)
+            by_excess(:, of_film) = off
+          end associate
+          by(:, field_foil, of_top_foil) = matmul(shape, area)
+          by(:, field_shaft, of_shaft) = matmul(shape, area)
+        end associate
+        associate (nodes => film%element_nodes(:, element), first => heat%first(number))
+          do k = 1, numbers
+            gradient(pad%first + nodes, k) = gradient(pad%first + nodes, k) + film%copies*by(:, field_pressure, k)
+            gradient(first + 2*nodes - 1, k) = gradient(first + 2*nodes - 1, k) + film%copies*by(:, field_gas, k)
+            gradient(first + 2*nodes, k) = gradient(first + 2*nodes, k) + film%copies*by(:, field_foil, k)
+            by_gap(nodes, k) = by_gap(nodes, k) + film%copies*by(:, field_gap, k)
+          end do
+          call add_shares(heat%first_wall + walls_of(heat, pad, nodes, .true.), film%copies*by(:, field_shaft, :), gradient)
+          if (heat%channels > 0) call add_shares(heat%first_wall + walls_of(heat, pad, nodes, .false.), &
+            reshape([(-merge(film%copies*heat%channel, 0.0_wp, k == to_channel)*by(:, field_foil, of_top_foil), k=1, numbers)], &
+                    [n, numbers]), gradient)
+          if (bearing%floats) then
+            do k = 1, 2
+              gradient(bearing%first_shaft + k, :) = gradient(bearing%first_shaft + k, :) &
+                + film%copies*matmul(film%motion_excess(k, :, element), by_excess)
+            end do
+          end if
+        end associate
+      end do
+    end associate
+  end subroutine add_pad_heat
+
+  !> Adds to unknowns that some nodes have together.
+  pure subroutine add_shares(place, share, gradient)
+    integer, intent(in) :: place(:) !! local unknown of each node
+    real(wp), intent(in) :: share(:, :) !! (nodes, numbers)
+    real(wp), intent(inout) :: gradient(:, :) !! (unknowns, numbers)
+    integer :: i
+
+    do i = 1, size(place)
+      gradient(place(i), :) = gradient(place(i), :) + share(i, :)
+    end do
+  end subroutine add_shares
+
+  !> Gas in the gap of all pads [m3], and its mean temperature [K].
+  function film_sums(bearing, unknown) result(sums)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp) :: sums(2), mean(bearing%film_nodes()), gap(bearing%film_nodes())
+    integer :: i, element
+
+    mean = mean_temperature(bearing, unknown)
+    gap = bearing%gap(unknown)
+    sums = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (film => bearing%pad(i)%film, first => bearing%pad(i)%first_node)
+        do element = 1, size(film%element_nodes, 2)
+          associate (nodes => first + film%element_nodes(:, element), area => film%copies*film%geometry(element)%area, &
+                     excess => film%excess(element, bearing%position(unknown)))
+            associate (gas => area*(matmul(gap(nodes), film%shape) + excess(:size(area))))
+              sums = sums + [sum(gas), dot_product(gas, matmul(mean(nodes), film%shape))]
+            end associate
+          end associate
+        end do
+      end associate
+    end do
+    sums = sum_over_ranks(sums)
+    sums(2) = sums(2)/sums(1)
+  end function film_sums
+
+  !> What follows from the integrals of all pads, and temperatures of single walls and nodes.
+  subroutine finish_heat(bearing, nodes, gradient, by_gap)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
+    real(wp), intent(inout) :: gradient(:, :), by_gap(:, :) !! (unknowns or nodes, numbers)
+    real(wp) :: area(1)
+    integer :: i, shaft(1)
+
+    area = sum_over_ranks([sum([(sum(nodal_areas(bearing%pad(i))), i=1, size(bearing%pad))])])
+    associate (heat => bearing%heat, growth => bearing%point%growth, sleeve => bearing%heat%first_wall + bearing%heat%sleeve_wall())
+      gradient(:, through_bumps) = heat%bumps*gradient(:, of_top_foil)
+      gradient(:, to_channel) = gradient(:, to_channel) + merge(heat%channel, 0.0_wp, heat%channels > 0)*gradient(:, of_top_foil)
+      gradient(:, of_top_foil) = gradient(:, of_top_foil)/area(1)
+      gradient(:, of_shaft) = gradient(:, of_shaft)/area(1)
+      gradient(:, left_clearance) = -growth*heat%shaft%growth*gradient(:, of_shaft)
+      gradient(:, by_gas) = gradient(:, place_torque) - gradient(:, to_shaft) - gradient(:, to_top_foil)
+      by_gap(:, by_gas) = by_gap(:, place_torque) - by_gap(:, to_shaft) - by_gap(:, to_top_foil)
+      if (abs(bearing%point%speed) > 0.0_wp) then
+        gradient(:, place_torque) = gradient(:, place_torque)/bearing%point%speed
+        by_gap(:, place_torque) = by_gap(:, place_torque)/bearing%point%speed
+      end if
+      if (bearing%last_rank) then
+        gradient(sleeve, of_sleeve) = 1.0_wp
+        gradient(sleeve, through_bumps) = -heat%bumps*area(1)
+        gradient(sleeve, left_clearance) = growth*heat%sleeve%growth
+        do i = 1, size(bearing%pad)
+          gradient(heat%first_wall + heat%inlet_wall(i), of_inlet) = 1.0_wp/real(size(bearing%pad), wp)
+        end do
+        if (heat%channels > 0) gradient(heat%first_wall + heat%channel_wall(heat%channels), of_outlet) = 1.0_wp
+      end if
+      do i = 1, size(bearing%pad)
+        associate (pad => bearing%pad(i))
+          associate (film => nodes%node(extremes + 1) - pad%first_node, foil => nodes%node(extremes + 2) - pad%first_node, &
+                     own => pad%last_node - pad%first_node, first => heat%first(i))
+            if (film > 0 .and. film <= own) then
+              shaft = heat%first_wall + walls_of(heat, pad, [film], .true.)
+              gradient(first + 2*film - 1, of_hottest_film) = 1.0_wp
+              gradient(first + 2*film, of_hottest_film) = 1.0_wp/6.0_wp
+              gradient(shaft(1), of_hottest_film) = -1.0_wp/6.0_wp
+            end if
+            if (foil > 0 .and. foil <= own) gradient(first + 2*foil, of_hottest_foil) = 1.0_wp
+          end associate
+        end associate
+      end do
+    end associate
+  end subroutine finish_heat
+
   !> Weights of a field's nodal values in `film_moment`, this rank's share [m2].
   pure function nodal_areas(pad) result(area)
     type(pad_type), intent(in) :: pad
@@ -207,6 +418,23 @@ contains
     end do
   end subroutine add_extremes
 
+  !> What a pad's gap does by the temperatures of shaft and sleeve.
+  pure subroutine follow_growth(bearing, pad, by_gap, gradient)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    type(pad_type), intent(in) :: pad
+    real(wp), intent(in) :: by_gap(:, :) !! (pad's nodes, numbers)
+    real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, numbers)
+    integer :: node
+
+    associate (heat => bearing%heat, part => bearing%point%growth)
+      call add_shares(heat%first_wall + walls_of(heat, pad, [(node, node=1, size(by_gap, 1))], .true.), &
+                      -part*heat%shaft%growth*by_gap, gradient)
+      associate (sleeve => gradient(heat%first_wall + heat%sleeve_wall(), :))
+        sleeve = sleeve + part*heat%sleeve%growth*sum(by_gap, 1)
+      end associate
+    end associate
+  end subroutine follow_growth
+
   !> What a pad's gap does by the unknowns that move it: its foil's, or pressures, and the shaft's.
   pure subroutine follow_gap(bearing, pad, by_gap, gradient)
     type(bearing_system_type), intent(in) :: bearing
@@ -215,6 +443,7 @@ contains
     real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, numbers)
     integer :: node, k
 
+    if (bearing%heat%present) call follow_growth(bearing, pad, by_gap, gradient)
     do node = 1, size(by_gap, 1)
       if (pad%foil%source(node) > 0) then
         associate (mine => gradient(pad%first + pad%foil%source(node), :))

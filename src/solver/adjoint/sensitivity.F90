@@ -24,7 +24,7 @@ module gfb_sensitivity
   use gfb_meshed_foil, only: split_motion
   use gfb_newton, only: newton_type, solve_transposed
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
-                                place_e, place_force, place_torque, place_speed, place_extremes
+                                place_e, place_force, place_torque, place_speed, place_extremes, place_heat
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: any_rank, sum_over_ranks, share_failure
   use gfb_fixed_lines, only: fixed_line_half_flat
@@ -156,7 +156,7 @@ contains
     real(wp), intent(in) :: combined(:, :) !! (quantities, numbers)
     Vec, intent(inout) :: adjoint(:)
     logical, intent(out) :: solved(:)
-    real(wp) :: gradient(bearing%local_size(), numbers)
+    real(wp) :: gradient(bearing%local_size(), merge(numbers, place_heat - 1, bearing%heat%present))
     Vec :: right
     PetscErrorCode :: ierr
     integer :: k
@@ -168,7 +168,7 @@ contains
       if (.not. scene%sensitivity%quantity(k)) cycle
       PetscCallA(VecDuplicate(bearing%state, adjoint(k), ierr))
       PetscCallA(VecSet(right, 0.0_wp, ierr))
-      call bearing%exchange%add(matmul(gradient, combined(k, :))*bearing%unknown_scale, right)
+      call bearing%exchange%add(matmul(gradient, combined(k, :size(gradient, 2)))*bearing%unknown_scale, right)
       call solve_adjoint(newton, tangent, right, adjoint(k), solved(k))
     end do
     PetscCallA(VecDestroy(right, ierr))
@@ -306,7 +306,7 @@ contains
     real(wp), parameter :: small = 4.0e-6_wp, large = 5.0e-4_wp
 
     select case (key%group)
-    case ('operation', 'gas', 'bore', 'contact', 'shaft_contact')
+    case ('operation', 'gas', 'bore', 'contact', 'shaft_contact', 'thermal')
       difference = difference_type(small, central)
     case default
       select case (key%name)
@@ -411,7 +411,7 @@ contains
 
     associate (name => key%name)
       select case (key%group)
-      case ('gas', 'bore', 'contact', 'shaft_contact')
+      case ('gas', 'bore', 'contact', 'shaft_contact', 'thermal')
         keeps = .true.
       case ('bearing')
         keeps = name == 'clearance' .or. name == 'assembly_interference'
@@ -448,6 +448,7 @@ contains
     number = 0.0_wp ! they stay where the foils alone are others
     select case (key%group)
     case ('contact', 'top_foil', 'bump_foil')
+      if (bearing%heat%present) number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     case default
       number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     end select
