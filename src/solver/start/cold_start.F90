@@ -21,6 +21,7 @@ module gfb_cold_start
   use gfb_start_problem, only: start_problem_type, drop_bearing, count_spent
   use gfb_saved_state, only: saved_state_type
   use gfb_start_list, only: start_pressed
+  use gfb_start_position, only: solve_at
   use gfb_branch_search, only: seek_branch
   use gfb_smaller_start, only: find_smaller, find_between, lies_between
   use gfb_answer_transfer, only: transfer_answer
@@ -258,11 +259,12 @@ contains
     call destroy_newton(rigid_newton)
     call rigid%destroy()
   end subroutine start_partitioned
-  !> Finds the answer at ambient temperature, with the shaft as its speed has made it grow, and goes on with heat. Where Newton's
-  !> method does not find that at once, what temperatures add to the shaft and the sleeve comes by steps.
+
+  !> Finds the answer of a scene with heat: on the coarsest mesh from that at ambient temperature, on the others from the answer
+  !> with heat of the mesh before; where that does not lead there, from that at ambient temperature, too.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  subroutine start_heated(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+  recursive subroutine start_heated(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(bearing_plan_type), intent(in) :: plan          !! its meshes
     type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
@@ -273,6 +275,59 @@ contains
     type(newton_type), target, intent(inout) :: newton          !! its solver, is created
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
+    type(scene_type), allocatable :: small
+    type(bearing_plan_type) :: small_plan
+    type(bearing_system_type), pointer :: coarse
+    type(newton_type), pointer :: coarse_newton
+    integer :: spent(3), before(3)
+    logical :: smaller
+
+    allocate (small)
+    before = 0
+    if (newton%created) call drop_bearing(bearing, newton, before)
+    call find_smaller(scene, plan, target, smaller, small, small_plan)
+    if (smaller .and. .not. scene%operation%asks_for_lift()) then
+      allocate (coarse, coarse_newton)
+      call start_heated(small, small_plan, target, newton_settings, path_settings, log, coarse, coarse_newton, report, error)
+      if (allocated(error)) return
+      if (report%converged()) then
+        call build_bearing(scene, plan, bearing, error)
+        if (allocated(error)) return
+        call create_newton(newton, bearing, 'bearing_', newton_settings, log)
+        call log%stage('film '//text(plan%circumferential)//' x '//text(plan%axial))
+        call transfer_answer(coarse, bearing)
+        call solve_at(bearing, newton, target, .false., path_settings, report)
+      end if
+      call drop_bearing(coarse, coarse_newton, spent)
+      deallocate (coarse, coarse_newton)
+      spent(3) = spent(2)
+      before = before + spent
+      if (report%converged()) then
+        call count_spent(newton, before)
+        return
+      end if
+      if (newton%created) then
+        call drop_bearing(bearing, newton, spent)
+        before = before + spent
+      end if
+    end if
+    call heat_up(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    if (.not. allocated(error)) call count_spent(newton, before)
+  end subroutine start_heated
+
+  !> Finds the answer at ambient temperature, with the shaft as its speed has made it grow, and goes on with heat. Where Newton's
+  !> method does not find that at once, what temperatures do to gas, shaft and sleeve comes by steps.
+  subroutine heat_up(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(operating_point_type), intent(in) :: target
+    type(newton_settings_type), intent(in) :: newton_settings
+    type(path_settings_type), intent(in) :: path_settings
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(path_report_type), intent(out) :: report
+    type(error_type), allocatable, intent(out) :: error
     type(scene_type), allocatable :: cold
 
     cold = scene
@@ -289,5 +344,5 @@ contains
     call renew_newton(newton, bearing, 'bearing_')
     bearing%point%growth = 0.0_wp
     call follow_path(bearing, newton, target, 1.0_wp, path_settings, report)
-  end subroutine start_heated
+  end subroutine heat_up
 end module gfb_cold_start
