@@ -64,8 +64,6 @@ contains
                    any(scene%sensitivity%quantity(quantities_without_heat + 1:)), &
                    'names a result of heat, which needs &thermal')
     if (.not. (scene%thermal%present .and. is_bearing(scene%general%analysis))) return
-    call keys%rule('shaft_contact', 'roughness', scene%shaft_contact%present, &
-                   'not yet with &thermal')
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                    "must be 'monolithic' with &thermal")
     call keys%rule('model', 'half_width', scene%model%half_width == half_width_yes .and. &

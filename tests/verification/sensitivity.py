@@ -132,6 +132,11 @@ def check_heat(checks, folder):
     for name in HEAT_NAMES:
         slope = slope_name(name, "thermal%shaft_expansion")
         checks.below(f"cooled, 2 ranks: {slope}", two[slope]/one[slope] - 1.0, LIMIT)
+    touching = with_keys(SPRINGS, gas=gas, thermal={**heat, "shaft_conductance": 0.05}, top_foil={"thickness": 1.02e-4},
+                         shaft_contact={"roughness": 2.0e-6, "pressure": 5.0e6, "friction": 0.1},
+                         operation={"speed_rpm": 10000.0, "load": (-80.0, 3.0)})
+    check_differences(checks, folder, "asperities with heat", touching, {"thermal%shaft_expansion": 3.0e-5},
+                      NAMES + ("shaft_temperature", "heat_by_gas", "running_clearance"))
     plain = tuple(name for name in HEAT_NAMES if name not in ("cooling_outlet_temperature", "heat_to_channel"))
     check_differences(checks, folder, "shells with heat", with_keys(foils("shell", 0.1), gas=gas, thermal={**heat, "shaft_conductance": 0.3}),
                       {"thermal%shaft_conductance": 1.0e-4, "bump_foil%thickness": 1.0e-4, "gas%ambient_pressure": 3.0e-5}, NAMES + plain)

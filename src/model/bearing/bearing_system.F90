@@ -11,7 +11,7 @@ module gfb_bearing_system
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type, visit_point
   use gfb_pad, only: pad_place_type, complete_pad, place_pads
-  use gfb_pad_terms, only: shaft_unknowns_type, pad_state_type, term_type, pad_terms, add_shaft_stiffness
+  use gfb_pad_terms, only: shaft_unknowns_type, growth_unknowns_type, pad_state_type, term_type, pad_terms, add_shaft_stiffness
   use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number, rank_count
@@ -20,7 +20,7 @@ module gfb_bearing_system
   use gfb_contact_memory, only: visit_contacts
   use gfb_foil_momentum, only: foil_momentum_type
   use gfb_local_exchange, only: create_exchange
-  use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian
+  use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian, walls_of
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
   implicit none (type)
   private
@@ -129,12 +129,13 @@ contains
     allocate (bearing%numbers(0:size(bearing%pad)))
     do i = 0, size(bearing%pad)
       global = bearing%blocks%global
-      if (i > 0) global = [global(bearing%pad(i)%first + 1:bearing%pad(i)%last), global(bearing%first_shaft + 1:)]
+      if (i > 0) global = [global(bearing%pad(i)%first + 1:bearing%pad(i)%last), &
+                           global(bearing%first_shaft - bearing%heat%walls + 1:)]
       PetscCallA(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1_pint, size(global, kind=pint), global, PETSC_COPY_VALUES, bearing%numbers(i), ierr))
     end do
   end subroutine create_numbers
 
-  !> From now on a matrix is filled by the local numbers of a pad and the shaft's behind them; 0: by the bearing's.
+  !> From now on a matrix is filled by the local numbers of a pad, behind them walls' and the shaft's; 0: by the bearing's.
   subroutine number_by(bearing, i, matrix)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in) :: i !! of the pad, or 0
@@ -157,6 +158,7 @@ contains
     do i = 1, size(bearing%pad)
       call number_by(bearing, i, bearing%jacobian)
       state%shaft = shaft_of(bearing, i)
+      state%growth = growth_of(bearing, i, bearing%point)
       call add_of_foil(bearing, bearing%pad(i)%foil%elastic, i, .true., bearing%jacobian)
       do k = 1, size(bearing%term)
         if (associated(bearing%term(k)%add_constant)) call bearing%term(k)%add_constant(bearing%pad(i), state, bearing%jacobian)
@@ -215,7 +217,7 @@ contains
 
     associate (pad => bearing%pad(i))
       state = pad_state_type(point, unknown(pad%first + 1:pad%last), gap(pad%first_node + 1:pad%last_node), &
-                             shaft_of(bearing, i), fixed)
+                             shaft_of(bearing, i), growth_of(bearing, i, point), fixed)
     end associate
   end function state_of
 
@@ -226,8 +228,28 @@ contains
     type(shaft_unknowns_type) :: shaft
 
     shaft = shaft_unknowns_type(bearing%first_shaft, bearing%coordinate)
-    if (i > 0) shaft%before = bearing%pad(i)%last - bearing%pad(i)%first
+    if (i > 0) shaft%before = bearing%pad(i)%last - bearing%pad(i)%first + bearing%heat%walls
   end function shaft_of
+
+  !> Temperatures that move a pad's gap, among the numbers by which it fills the matrix.
+  pure function growth_of(bearing, i, point) result(growth)
+    class(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: i !! of the pad
+    type(operating_point_type), intent(in) :: point
+    type(growth_unknowns_type) :: growth
+    integer :: node
+
+    associate (heat => bearing%heat, pad => bearing%pad(i))
+      if (.not. (heat%grows() .and. pad%contact%present)) then
+        allocate (growth%number(0, size(pad%film%angle)), growth%rate(0))
+        return
+      end if
+      growth%rate = point%growth*[-heat%shaft%growth, heat%sleeve%growth]
+      allocate (growth%number(2, size(pad%film%angle)))
+      growth%number(1, :) = pad%last - pad%first - 1 + walls_of(heat, pad, [(node, node=1, size(growth%number, 2))], .true.)
+      growth%number(2, :) = pad%last - pad%first - 1 + heat%sleeve_wall()
+    end associate
+  end function growth_of
 
   !> Forces over coordinates: those that keep a fixed shaft at its position; of one that floats those of its inertia.
   pure function hold_stiffness(bearing, point, fixed) result(stiffness)

@@ -29,12 +29,19 @@ module gfb_pad_terms
     procedure :: numbers
   end type shaft_unknowns_type
 
+  !> Temperatures of walls that move the gap, among the numbers by which a pad fills the matrix; none where nothing grows.
+  type, public :: growth_unknowns_type
+    integer, allocatable :: number(:, :) !! (walls of a node, nodes) local numbers, from 0
+    real(wp), allocatable :: rate(:)     !! (walls of a node) of the gap by them [m/K]
+  end type growth_unknowns_type
+
   !> What a pad's equations depend on beside the pad.
   type, public :: pad_state_type
     type(operating_point_type) :: point  !! with the shaft's position
     real(wp), allocatable :: unknown(:)  !! the pad's, in SI
     real(wp), allocatable :: gap(:)      !! at this rank's nodes [m]
     type(shaft_unknowns_type) :: shaft   !! its unknowns
+    type(growth_unknowns_type) :: growth !! of shaft and sleeve
     logical :: fixed = .false.           !! the shaft's equations are its place's
   end type pad_state_type
 
@@ -224,7 +231,7 @@ contains
     type(pad_type), intent(in) :: pad
     type(pad_state_type), intent(in) :: state
     Mat, intent(in) :: matrix
-    call add_solid_rows(pad, state%shaft, state%fixed, contact_pressure_rate(pad%contact, state%gap), matrix)
+    call add_solid_rows(pad, state, state%fixed, contact_pressure_rate(pad%contact, state%gap), matrix)
   end subroutine asperity_jacobian
 
   !> Room for them.
@@ -232,26 +239,30 @@ contains
     type(pad_type), intent(in) :: pad
     type(pad_state_type), intent(in) :: state
     Mat, intent(in) :: matrix
-    call add_solid_rows(pad, state%shaft, .true., spread(0.0_wp, 1, size(pad%film%angle)), matrix)
+    call add_solid_rows(pad, state, .true., spread(0.0_wp, 1, size(pad%film%angle)), matrix)
   end subroutine asperity_room
 
   !> Adds their rows of shaft and foil; none where nothing touches.
-  subroutine add_solid_rows(pad, shaft, fixed, rate, matrix)
+  subroutine add_solid_rows(pad, state, fixed, rate, matrix)
     type(pad_type), intent(in) :: pad
-    type(shaft_unknowns_type), intent(in) :: shaft
+    type(pad_state_type), intent(in) :: state
     logical, intent(in) :: fixed
     real(wp), intent(in) :: rate(:) !! of the pressure by the gap, at the pad's nodes [Pa/m]
     Mat, intent(in) :: matrix
 
-    integer :: column(size(shaft%coordinate) + 1, size(rate)) ! local numbers, from 0: of the foil, of the shaft
-    real(wp) :: slope(size(shaft%coordinate) + 1, size(rate)) ! of the pressure by them
+    integer :: column(size(state%shaft%coordinate) + 1 + size(state%growth%rate), size(rate)) ! local numbers, from 0: foil, shaft, walls
+    real(wp) :: slope(size(column, 1), size(rate)) ! of the pressure by them
 
     if (.not. pad%contact%present) return
-    column(1, :) = pad%foil%source - 1
-    slope(1, :) = rate*pad%foil%rate
-    column(2:, :) = spread(int(shaft%numbers()), 2, size(rate))
-    slope(2:, :) = spread(rate, 1, size(shaft%coordinate))*pad%film%motion(shaft%coordinate, :)
-    call add_to_shaft(pad%film, shaft, fixed, column, slope, matrix)
+    associate (shaft => state%shaft, last => size(state%shaft%coordinate) + 1)
+      column(1, :) = pad%foil%source - 1
+      slope(1, :) = rate*pad%foil%rate
+      column(2:last, :) = spread(int(shaft%numbers()), 2, size(rate))
+      slope(2:last, :) = spread(rate, 1, size(shaft%coordinate))*pad%film%motion(shaft%coordinate, :)
+      column(last + 1:, :) = state%growth%number
+      slope(last + 1:, :) = spread(state%growth%rate, 2, size(rate))*spread(rate, 1, size(state%growth%rate))
+      call add_to_shaft(pad%film, shaft, fixed, column, slope, matrix)
+    end associate
     call pad%foil%add_load_rates(column, slope, matrix)
   end subroutine add_solid_rows
 
@@ -261,8 +272,8 @@ contains
     type(gas_film_type), intent(in) :: film
     type(shaft_unknowns_type), intent(in) :: shaft
     logical, intent(in) :: fixed
-    integer, intent(in) :: column(:, :) !! (shaft's and one, nodes) local numbers, from 0
-    real(wp), intent(in) :: slope(:, :) !! (shaft's and one, nodes) of the pressure by them
+    integer, intent(in) :: column(:, :) !! (unknowns of a node, nodes) local numbers, from 0
+    real(wp), intent(in) :: slope(:, :) !! (unknowns of a node, nodes) of the pressure by them
     Mat, intent(in) :: matrix
 
     ! a row of the matrix in each column, as PETSc reads it

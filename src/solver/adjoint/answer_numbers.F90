@@ -180,7 +180,15 @@ contains
         end if
       end associate
     end do
-    if (bearing%heat%present) call finish_heat(bearing, nodes, gradient, by_gap)
+    if (bearing%heat%present) then
+      call finish_heat(bearing, nodes, gradient, by_gap)
+      do i = 1, size(bearing%pad)
+        associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
+          by_gap(first:last, place_torque) = by_gap(first:last, place_torque) + pad%film%surface%radius*pad%contact%friction* &
+            nodal_areas(pad)*contact_pressure_rate(pad%contact, gap(first:last))
+        end associate
+      end do
+    end if
     call add_extremes(bearing, nodes, gradient, by_gap)
     do i = 1, size(bearing%pad)
       call follow_gap(bearing, bearing%pad(i), by_gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node, :), gradient)
