@@ -90,7 +90,6 @@ contains
     if (scene%periodic%present) why = "--branches has no use with analysis = 'periodic'"
     if (scene%transient%present) why = "--branches has no use with analysis = 'transient'"
     if (scene%dynamics%present) why = "--branches has no use with analysis = 'linear_dynamics'"
-    if (scene%thermal%present) why = '--branches: not yet with &thermal'
     if (scene%sample%present) why = '&sample: has one answer a member, not all of --branches'
     if (scene%accuracy%present) why = '&accuracy: is for one answer, not for all of --branches'
     if (why /= '') call fail(error, scene%file//': '//why)

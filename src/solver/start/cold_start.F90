@@ -14,6 +14,7 @@ module gfb_cold_start
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_heat_switch, only: add_heat
+  use gfb_bearing_heat, only: film_heat_type
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing, heat_of
   use gfb_newton, only: newton_type, newton_settings_type, create_newton, renew_newton, destroy_newton
@@ -286,7 +287,7 @@ contains
     before = 0
     if (newton%created) call drop_bearing(bearing, newton, before)
     call find_smaller(scene, plan, target, smaller, small, small_plan)
-    if (smaller .and. .not. scene%operation%asks_for_lift()) then
+    if (smaller) then
       allocate (coarse, coarse_newton)
       call start_heated(small, small_plan, target, newton_settings, path_settings, log, coarse, coarse_newton, report, error)
       if (allocated(error)) return
@@ -316,9 +317,10 @@ contains
   end subroutine start_heated
 
   !> Finds the answer at ambient temperature, with the shaft as its speed has made it grow, and goes on with heat. Where Newton's
-  !> method does not find that at once, what temperatures do to gas, shaft and sleeve comes by steps.
+  !> method does not find that at once, what temperatures do to gas, shaft and sleeve comes by steps. Lifts of an edge are those with
+  !> heat.
   subroutine heat_up(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), target, intent(in) :: scene
     type(bearing_plan_type), intent(in) :: plan
     type(operating_point_type), intent(in) :: target
     type(newton_settings_type), intent(in) :: newton_settings
@@ -329,20 +331,31 @@ contains
     type(path_report_type), intent(out) :: report
     type(error_type), allocatable, intent(out) :: error
     type(scene_type), allocatable :: cold
+    type(film_heat_type) :: heat
+    type(start_problem_type), allocatable :: problem
 
     cold = scene
     cold%thermal%present = .false.
-    associate (heat => heat_of(scene))
-      cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
-      call start_bearing(cold, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-      if (allocated(error)) return
-      if (.not. report%converged()) return
-      call log%stage('heat')
-      bearing%pad%film%interference = scene%bearing%interference
-      call add_heat(bearing, heat)
-    end associate
+    cold%operation%leading_edge_lift = [real(wp) ::]
+    cold%operation%leading_edge_lift_edge = [real(wp) ::]
+    heat = heat_of(scene)
+    cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
+    call start_bearing(cold, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    if (allocated(error)) return
+    if (.not. report%converged()) return
+    call log%stage('heat')
+    bearing%pad%film%interference = scene%bearing%interference
+    call add_heat(bearing, heat)
     call renew_newton(newton, bearing, 'bearing_')
     bearing%point%growth = 0.0_wp
     call follow_path(bearing, newton, target, 1.0_wp, path_settings, report)
+    if (.not. (report%converged() .and. scene%operation%asks_for_lift())) return
+    allocate (problem)
+    problem%scene => scene
+    problem%target = target
+    problem%settings = path_settings
+    problem%bearing => bearing
+    problem%newton => newton
+    call seek_branch(scene%operation%leading_edge_lift, scene%operation%leading_edge_lift_edge, problem)
   end subroutine heat_up
 end module gfb_cold_start

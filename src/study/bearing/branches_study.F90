@@ -25,7 +25,7 @@ module gfb_branches_study
   use gfb_answer_judgement, only: judge_answer
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_cold_start, only: start_bearing
+  use gfb_cold_start, only: start_bearing, start_heated
   use gfb_start_problem, only: start_problem_type
   use gfb_start_list, only: soft_starts_of, start_name, try_start
   use gfb_bearing_plan, only: plan_bearing
@@ -213,8 +213,13 @@ contains
       tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, solver%maximum_iterations)
       tolerances%bound => self%bound
       call self%bound%begin(solver%maximum_factorizations)
-      call start_bearing(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
-                         self%bearing, self%newton, report, error)
+      if (scene%thermal%present) then
+        call start_heated(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
+                          self%bearing, self%newton, report, error)
+      else
+        call start_bearing(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
+                           self%bearing, self%newton, report, error)
+      end if
       call self%bound%lift()
     end associate
     if (allocated(error)) return
@@ -224,7 +229,8 @@ contains
     else
       call context%log%line('no equilibrium from the usual starts: '//report%reason())
     end if
-    call search_from_starts(self, searched(scene), settings, context%log)
+    ! The other starts are those of a film without heat.
+    if (.not. scene%thermal%present) call search_from_starts(self, searched(scene), settings, context%log)
     self%converged = allocated(self%search%branch)
     if (.not. self%converged) self%reason%code = reason_no_equilibrium
     self%unknowns = self%bearing%unknowns
