@@ -1,18 +1,13 @@
-/* OpenBLAS' kernel: which one computes, whether it computes rightly, and the program's start anew with another. OpenBLAS chooses
-   it once, where it is loaded, so that a start anew is the only way to another. */
+/* OpenBLAS' kernel: which one computes, whether it computes rightly, and another in its place. */
 #define _GNU_SOURCE /* RTLD_DEFAULT */
 #include <dlfcn.h>
 #include <float.h>
-#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-static const char choice[] = "OPENBLAS_CORETYPE", mark[] = "GFB_BLAS_KERNEL"; /* variables of the environment */
 
 /* Name of the kernel; empty where BLAS is no OpenBLAS, or is linked statically. */
 void gfb_blas_kernel_name(char name[], int room)
@@ -38,46 +33,21 @@ int gfb_vector_bits(void)
 #endif
 }
 
-/* What was set for the start anew is no setting of the user's: neither this process nor its children see it. */
-void gfb_forget_kernel(void)
+/* Makes OpenBLAS choose again, a kernel that is named: by what it does itself where it is loaded, before any product. 0 where it has
+   no such functions, with the kernel as it was. Nothing is left in the environment. */
+int gfb_set_kernel(const char *kernel)
 {
+  static const char choice[] = "OPENBLAS_CORETYPE";
+  void             *found[]  = {dlsym(RTLD_DEFAULT, "gotoblas_dynamic_quit"), dlsym(RTLD_DEFAULT, "gotoblas_dynamic_init")};
+  void (*forget)(void), (*choose)(void);
+
+  if (!found[0] || !found[1] || setenv(choice, kernel, 1) != 0) return 0;
+  memcpy(&forget, &found[0], sizeof forget);
+  memcpy(&choose, &found[1], sizeof choose);
+  forget();
+  choose();
   unsetenv(choice);
-  unsetenv(mark);
-}
-
-/* The words of the command line, ended by NULL; NULL where the system does not tell them. */
-static char **words_of_line(void)
-{
-  FILE  *file = fopen("/proc/self/cmdline", "r");
-  char **words = NULL, *word = NULL;
-  size_t room = 0, count = 0;
-
-  while (file && getdelim(&word, &room, '\0', file) > 0) {
-    char **longer = realloc(words, (count + 2)*sizeof *words);
-    if (!longer) break;
-    words          = longer;
-    words[count++] = word;
-    words[count]   = NULL;
-    word           = NULL;
-    room           = 0;
-  }
-  if (file && !feof(file)) words = NULL;
-  if (file) fclose(file);
-  return words;
-}
-
-/* Starts the program anew in this process, with the same words; comes back where that cannot be. Its file is called by its name,
-   which the system shows. Valgrind would not follow. */
-void gfb_start_again(const char *kernel, const char *why)
-{
-  const char *preload = getenv("LD_PRELOAD");
-  char        program[PATH_MAX], **words = words_of_line();
-  ssize_t     length = readlink("/proc/self/exe", program, sizeof program - 1);
-
-  if (!words || length <= 0 || (preload && strstr(preload, "vgpreload"))) return;
-  program[length] = '\0';
-  if (setenv(choice, kernel, 1) == 0 && setenv(mark, why, 1) == 0) execv(program, words);
-  gfb_forget_kernel();
+  return 1;
 }
 
 /* The larger one is beyond what OpenBLAS has kernels of their own for (a million products); odd, so that edges are computed too. */

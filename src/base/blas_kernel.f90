@@ -6,12 +6,9 @@ module gfb_blas_kernel
   use gfb_machine_memory, only: start_blas
   implicit none (type, external)
   private
-  public :: kernel_step, choose_kernel, kernel_name
+  public :: kernel_choice, choose_kernel, kernel_name
 
   character(len=*), parameter :: fallback = 'Prescott' !! of OpenBLAS, on x86-64
-  !> Marks of a start anew: with a kernel that was chosen, and with the fallback after that one was
-  !> wrong.
-  character(len=*), parameter :: chosen = 'chosen', refused = 'refused'
   integer, parameter :: longest = 64 !! letters of a name
 
   interface
@@ -22,15 +19,13 @@ module gfb_blas_kernel
       integer(c_int), value :: room
     end subroutine gfb_blas_kernel_name
 
-    subroutine gfb_start_again(kernel, why) bind(c)
-      import :: c_char
+    !> Chooses a kernel, by a name that ends with a null; 0 where OpenBLAS cannot choose again.
+    function gfb_set_kernel(kernel) result(done) bind(c)
+      import :: c_char, c_int
       implicit none (type, external)
-      character(kind=c_char), intent(in) :: kernel(*), why(*)
-    end subroutine gfb_start_again
-
-    subroutine gfb_forget_kernel() bind(c)
-      implicit none (type, external)
-    end subroutine gfb_forget_kernel
+      character(kind=c_char), intent(in) :: kernel(*)
+      integer(c_int) :: done
+    end function gfb_set_kernel
 
     integer function gfb_vector_bits() bind(c)
       implicit none (type, external)
@@ -43,43 +38,33 @@ module gfb_blas_kernel
 
 contains
 
-  !> What the start does: nothing ('keep'), 'check' the kernel that was chosen, or start anew with
-  !> a kernel, which is named.
-  pure function kernel_step(kernel, vector_bits, given, mark) result(step)
+  !> The kernel that the start chooses; empty where the one that computes stays.
+  pure function kernel_choice(kernel, vector_bits, given) result(choice)
     character(len=*), intent(in) :: kernel !! that computes now; empty: no OpenBLAS
     integer, intent(in) :: vector_bits     !! of the widest vectors of the processor
     logical, intent(in) :: given           !! the user has chosen a kernel
-    character(len=*), intent(in) :: mark   !! of a start anew; empty: this is none
-    character(len=:), allocatable :: step
+    character(len=:), allocatable :: choice
 
-    step = 'keep'
-    if (mark == chosen) step = 'check'
-    if (mark /= '' .or. given .or. kernel /= fallback) return
-    if (vector_bits >= 256) step = 'Haswell'
-    if (vector_bits >= 512) step = 'SkylakeX'
-  end function kernel_step
+    choice = ''
+    if (given .or. kernel /= fallback) return
+    if (vector_bits >= 256) choice = 'Haswell'
+    if (vector_bits >= 512) choice = 'SkylakeX'
+  end function kernel_choice
 
-  !> Starts the program anew with another kernel where OpenBLAS fell back and the user chose none;
-  !> after that, with the fallback again where the kernel computes wrongly. Before MPI starts.
+  !> Chooses another kernel where OpenBLAS fell back and the user chose none, and the fallback again
+  !> where that one computes wrongly. Before the first product.
   subroutine choose_kernel()
-    character(len=:), allocatable :: step
-    character(len=8) :: mark
+    character(len=:), allocatable :: choice
+    integer(c_int) :: done
     integer :: none
 
     call get_environment_variable('OPENBLAS_CORETYPE', status=none)
-    call get_environment_variable('GFB_BLAS_KERNEL', mark)
-    step = kernel_step(kernel_name(), gfb_vector_bits(), none /= 1, mark)
-    if (mark /= '') call gfb_forget_kernel()
-    select case (step)
-    case ('keep')
-    case ('check')
-      call start_blas()
-      if (gfb_kernel_is_right() /= 0) return
-      call gfb_start_again(fallback//c_null_char, refused//c_null_char)
-      error stop 'OpenBLAS computes wrongly; OPENBLAS_CORETYPE names another kernel'
-    case default ! where that cannot be, the run goes on
-      call gfb_start_again(step//c_null_char, chosen//c_null_char)
-    end select
+    choice = kernel_choice(kernel_name(), gfb_vector_bits(), none /= 1)
+    if (choice == '') return
+    done = gfb_set_kernel(choice//c_null_char)
+    if (done == 0) return
+    call start_blas()
+    if (gfb_kernel_is_right() == 0) done = gfb_set_kernel(fallback//c_null_char)
   end subroutine choose_kernel
 
   !> Name of OpenBLAS' kernel; empty where BLAS is another.

@@ -1,20 +1,20 @@
-/* Loaded before OpenBLAS: an OpenBLAS that falls back until the program has started anew, with a product as WRONG_PRODUCT says.
-   Every start and every end is noted in the file of STARTS. */
+/* Loaded before OpenBLAS: an OpenBLAS that falls back where it is loaded and can choose again, with a product as WRONG_PRODUCT says.
+   Every choice, and every end, is noted in the file of STARTS. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static char mark[16];
+static int choices;
 
 static void note(const char *what)
 {
-  const char *place = getenv("STARTS"), *kernel = getenv("OPENBLAS_CORETYPE"), *set = getenv("GFB_BLAS_KERNEL");
+  const char *place = getenv("STARTS"), *kernel = getenv("OPENBLAS_CORETYPE");
   FILE       *file = place ? fopen(place, "a") : NULL;
 
   if (!file) return;
-  fprintf(file, "%s %s %s\n", what, kernel ? kernel : "-", set ? set : "-");
+  fprintf(file, "%s %s\n", what, kernel ? kernel : "-");
   fclose(file);
 }
 
@@ -24,17 +24,21 @@ static int is_program(void)
   return dlsym(RTLD_DEFAULT, "dgetrf_") != NULL;
 }
 
-__attribute__((constructor)) static void start(void)
-{
-  const char *set = getenv("GFB_BLAS_KERNEL");
-
-  snprintf(mark, sizeof mark, "%s", set ? set : "");
-  if (is_program()) note("start");
-}
-
 __attribute__((destructor)) static void end(void)
 {
   if (is_program()) note("end");
+}
+
+/* OpenBLAS calls it where it is loaded, and before its first product, where it does nothing; the program between them. */
+void gotoblas_dynamic_init(void)
+{
+  void *found = dlsym(RTLD_NEXT, "gotoblas_dynamic_init");
+  void (*choose)(void);
+
+  choices++;
+  if (choices < 2 || getenv("OPENBLAS_CORETYPE")) note("choice");
+  memcpy(&choose, &found, sizeof found);
+  choose();
 }
 
 char *openblas_get_corename(void)
@@ -43,7 +47,7 @@ char *openblas_get_corename(void)
   char *(*corename)(void);
 
   memcpy(&corename, &found, sizeof found);
-  return *mark && found ? corename() : "Prescott";
+  return choices > 1 && found ? corename() : "Prescott";
 }
 
 typedef void product(const char *, const char *, const int *, const int *, const int *, const double *, const double *, const int *,

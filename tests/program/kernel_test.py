@@ -34,10 +34,10 @@ def kernel_for_processor():
 
 def call(folder, *words, ranks=0, preload=None, **settings):
     """A run under settings of the environment, without those of the caller that choose a kernel: how it ended, and the notes of its
-    starts where a library is loaded before its own."""
+    choices where a library is loaded before its own."""
     notes = folder/"starts"
     notes.unlink(missing_ok=True)
-    environment = {name: word for name, word in os.environ.items() if name not in ("OPENBLAS_CORETYPE", "GFB_BLAS_KERNEL")}
+    environment = {name: word for name, word in os.environ.items() if name != "OPENBLAS_CORETYPE"}
     environment |= ENVIRONMENT | settings
     if preload:
         environment |= {"LD_PRELOAD": preload, "STARTS": str(notes), "ASAN_OPTIONS": "detect_leaks=0,verify_asan_link_order=0"}
@@ -48,30 +48,30 @@ def call(folder, *words, ranks=0, preload=None, **settings):
 
 
 def check_chosen(checks, folder, preload, wanted):
-    """A library that fell back: the kernel of the processor, after one start anew; nothing of it is left in the environment."""
+    """A library that fell back: the kernel of the processor, by one more choice; nothing of it is left in the environment."""
     done, notes = call(folder, "--version", preload=preload)
     checks.that(f"fallback: {kernel_of(done.stdout)} kernel", kernel_of(done.stdout) == wanted and not done.stderr)
-    checks.that(f"one start anew: {notes}", notes == ["start - -", f"start {wanted} chosen", "end - -"])
+    checks.that(f"one more choice: {notes}", notes == ["choice -", f"choice {wanted}", "end -"])
     for wrong in ("a little", "illegal"):
         done, notes = call(folder, "--version", preload=preload, WRONG_PRODUCT=wrong)
         checks.that(f"{wrong} wrong: the fallback again {done.stderr}", kernel_of(done.stdout) == "Prescott" and done.returncode == 0)
-        checks.that(f"  and no third start anew: {notes}", notes == ["start - -", f"start {wanted} chosen", "start Prescott refused", "end - -"])
+        checks.that(f"  and no more: {notes}", notes == ["choice -", f"choice {wanted}", "choice Prescott", "end -"])
 
 
 def check_user(checks, folder, preload):
     """What the user has set stays, and is seen by what the program starts."""
     done, notes = call(folder, "--version", preload=preload, OPENBLAS_CORETYPE="Prescott")
     checks.that(f"the user's kernel: {kernel_of(done.stdout)}", kernel_of(done.stdout) == "Prescott")
-    checks.that(f"no start anew: {notes}", notes == ["start Prescott -", "end Prescott -"])
+    checks.that(f"no more choice: {notes}", notes == ["choice Prescott", "end Prescott"])
 
 
 def check_runs(checks, folder, preload, wanted):
-    """One rank and two compute with it, with the same words of the command line."""
+    """One rank and two compute with it."""
     (folder/"a case.nml").write_text(case_text(CASE), encoding="utf-8")
     for ranks in (0, 2):
         done, notes = call(folder, "--output", "two words", "a case.nml", "--petsc", "-name", "", ranks=ranks, preload=preload)
         checks.that(f"{ranks or 1} rank(s): status {done.returncode} {done.stderr}", done.returncode == 0)
-        checks.that("  starts of each", notes.count(f"start {wanted} chosen") == max(ranks, 1) == notes.count("end - -"))
+        checks.that("  each has chosen", notes.count(f"choice {wanted}") == max(ranks, 1) == notes.count("end -"))
         checks.that("  the log names the kernel", f"{ranks or 1} rank(s)" in done.stdout and kernel_of(done.stdout) == wanted)
 
 
