@@ -4,12 +4,9 @@
 #include <stdint.h>
 #include <petscsys.h>
 
-/* To be called before MPI starts: from then on to gfb_started the end of the process is a sentence and status 3. */
-void gfb_watch_start(void);
-
-/* The same, and more. A process that no launcher has started, by Open MPI up to 4, needs no helper daemon
-   where it shares nothing with others: its session folder is its own, and gone when it ends. Does nothing where a
-   launcher, or the user, has set Open MPI up. */
+/* To be called before MPI starts, and again before PETSc does: from then on to gfb_started the end of the process is a sentence
+   and status 3. A process that no launcher has started, by Open MPI up to 4, needs no helper daemon where it shares nothing with
+   others: its session folder is its own, and gone when it ends. Where a launcher, or the user, has set Open MPI up, that is all. */
 void gfb_start_alone(void);
 
 /* To be called when MPI has started: takes back what was set in the environment, and what the end means. */

@@ -43,16 +43,17 @@ def check_start(checks, folder):
     for settings in faults[:2]:
         status, wrong = call(folder, "case.nml", ranks=2, **settings)
         checks.that(f"{settings}, 2 ranks: status {status}", status != 0 and SAID in wrong)
-    status, wrong = call(folder, "--groups", "1", "sweep.nml", TMPDIR=NOWHERE)
-    checks.that(f"groups, TMPDIR={NOWHERE}: status {status}", status == 3 and f"nothing can be written in {NOWHERE}" in wrong)
+    status, wrong = call(folder, "case.nml", **faults[-1])
+    checks.that(f"  it names the folder: {wrong.strip()}", f"nothing can be written in {NOWHERE}" in wrong)
     checks.that("no results of these", not list(folder.glob("*.summary")))
 
 
 def check_folder(checks, folder):
     """A run that is alone finds another folder than that of TMPDIR, and leaves nothing in it."""
     for place in (NOWHERE, str(folder/"none")):
-        status, wrong = call(folder, "case.nml", TMPDIR=place)
-        checks.that(f"TMPDIR={place}: status {status} {wrong.strip()}", status == 0 and not wrong)
+        for words in (("case.nml",), ("--groups", "1", "sweep.nml")):
+            status, wrong = call(folder, *words, TMPDIR=place)
+            checks.that(f"TMPDIR={place} {' '.join(words)}: status {status} {wrong.strip()}", status == 0 and not wrong)
     place = folder/"temporary"
     place.mkdir()
     checks.that("an input that is wrong keeps its status", call(folder, "none.nml", TMPDIR=str(place))[0] == 1)

@@ -12,13 +12,17 @@
 static const int status_machine = 3;
 
 /* Settings of a process that is alone. Two isolated ones would take the same session folder and the same names in shared
-   memory: each gets a folder of its own, and messages to itself need no shared memory. */
+   memory: each gets a folder of its own, and messages to itself need no shared memory. What it does not use is not loaded:
+   collective calls of many ranks, and plug-ins that look for displays, graphics cards and disks of the machine, for which hwloc
+   looks in that folder. */
 static char        session[4096]; /* the folder */
 static const char *const alone[][2] = {
   {"OMPI_MCA_orte_tmpdir_base", session},
   {"OMPI_MCA_ess_singleton_isolated", "1"},
   {"OMPI_MCA_pml", "ob1"},
   {"OMPI_MCA_btl", "self"},
+  {"OMPI_MCA_coll", "self,basic,libnbc"},
+  {"HWLOC_PLUGINS_PATH", session},
 };
 static const size_t alone_settings = sizeof alone/sizeof *alone;
 static int          is_alone       = 0;
@@ -105,7 +109,7 @@ void _exit(int status)
   _Exit(status);
 }
 
-void gfb_watch_start(void)
+static void watch_start(void)
 {
   char here[PATH_MAX];
 
@@ -119,11 +123,13 @@ void gfb_watch_start(void)
 
 void gfb_start_alone(void)
 {
-  gfb_watch_start();
+  watch_start();
 #if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
   const char *const folders[] = {temporary_folder(), "/tmp"};
+  int               begun;
 
-  if (is_launched()) return;
+  MPI_Initialized(&begun); /* where the ranks have been divided into groups */
+  if (begun || is_launched()) return;
   for (size_t i = 0; !is_alone && i < sizeof folders/sizeof *folders; i++)
     is_alone = make_session(folders[i]);
   if (!is_alone) return;

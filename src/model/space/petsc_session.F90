@@ -12,7 +12,7 @@ module gfb_petsc_session
   use gfb_petsc_kinds, only: preal, pint
   implicit none (type)
   private
-  public :: given_petsc_options, solver_options, gfb_watch_start, gfb_started, start_petsc, stop_petsc, this_rank, rank_count, &
+  public :: given_petsc_options, solver_options, gfb_start_alone, gfb_started, start_petsc, stop_petsc, this_rank, rank_count, &
             ranks_on_node, petsc_version_text, wall_time, sum_over_ranks, largest_over_ranks, largest_number, any_rank, &
             share_failure, fetch_entries, stop_is_asked
 
@@ -35,15 +35,12 @@ module gfb_petsc_session
   end interface
 
   interface
-    !> Before MPI starts: where it cannot, a sentence and status 3.
-    subroutine gfb_watch_start() bind(c)
-    end subroutine gfb_watch_start
-
-    !> The same; a process that no launcher has started does without Open MPI's helper daemon.
+    !> Before MPI starts: where it cannot, a sentence and status 3. A process that no launcher has started does without Open MPI's
+    !> helper daemon, and without what it does not use.
     subroutine gfb_start_alone() bind(c)
     end subroutine gfb_start_alone
 
-    !> Afterwards: takes back what these two have set.
+    !> Afterwards: takes back what that has set.
     subroutine gfb_started() bind(c)
     end subroutine gfb_started
 

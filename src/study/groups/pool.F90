@@ -16,7 +16,7 @@ module gfb_pool
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_text_file, only: table_member_type, visit_member
-  use gfb_petsc_session, only: gfb_started, gfb_watch_start, any_rank
+  use gfb_petsc_session, only: gfb_start_alone, gfb_started, any_rank
   use gfb_provenance, only: version_text
   use gfb_division, only: block_ends, owner_of
   use gfb_run_context, only: run_context_type, run_listener_type
@@ -59,7 +59,7 @@ contains
 
     pool%groups = groups
     if (groups == 0) return
-    call gfb_watch_start()
+    call gfb_start_alone()
     call MPI_Init_thread(MPI_THREAD_FUNNELED, provided, ierr)
     call gfb_started()
     call MPI_Comm_size(MPI_COMM_WORLD, pool%ranks, ierr)
