@@ -101,6 +101,29 @@ function(gfb_judge_links result)
   set(${result} "${wrong}" PARENT_SCOPE)
 endfunction()
 
+# gfb_first_libraries(result): files of Trilinos, which Debian's PETSc brings along. Two thirds of all names that the loader looks up
+# at a start are theirs, each in one library after the other: they are found soon where these are the first. Empty where there are none.
+function(gfb_first_libraries result)
+  set(files ${PETSC_LINK_LIBRARIES})
+  list(FILTER files INCLUDE REGEX "/libpetsc[^/]*$")
+  set(found)
+  foreach(step RANGE 1 2) # what PETSc needs, and what that needs
+    gfb_dynamic(names NEEDED ${files})
+    list(FILTER names INCLUDE REGEX "^libtrilinos_")
+    set(files)
+    foreach(name ${names})
+      find_library(GFB_FIRST_${name} NAMES ${name})
+      mark_as_advanced(GFB_FIRST_${name})
+      if(GFB_FIRST_${name})
+        list(APPEND files ${GFB_FIRST_${name}})
+      endif()
+    endforeach()
+    list(REVERSE files) # most of the names are those of the last
+    list(APPEND found ${files})
+  endforeach()
+  set(${result} "${found}" PARENT_SCOPE)
+endfunction()
+
 function(gfb_check_libraries)
   gfb_judge_headers(headers)
   gfb_judge_links(links)
