@@ -119,6 +119,10 @@ contains
   pure function outer(first, second) result(product)
     real(wp), intent(in) :: first(:), second(:)
     real(wp) :: product(size(first), size(second))
-    product = spread(first, 2, size(second))*spread(second, 1, size(first))
+    integer :: i
+
+    do i = 1, size(second)
+      product(:, i) = first*second(i)
+    end do
   end function outer
 end module gfb_film_load
