@@ -27,6 +27,10 @@ static const char *const alone[][2] = {
 static const size_t alone_settings = sizeof alone/sizeof *alone;
 static int          is_alone       = 0;
 
+/* Ranks that wait give their core to who computes: where other jobs are on it, one rank would keep the other from answering. */
+static const char yielding[] = "OMPI_MCA_mpi_yield_when_idle";
+static int        is_yielding = 0;
+
 #if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
 /* What begins so was set by a launcher; a setting that is there, by a user who wants something of Open MPI. */
 static int is_launched(void)
@@ -129,7 +133,11 @@ void gfb_start_alone(void)
   int               begun;
 
   MPI_Initialized(&begun); /* where the ranks have been divided into groups */
-  if (begun || is_launched()) return;
+  if (begun) return;
+  if (is_launched()) {
+    is_yielding = !getenv(yielding) && setenv(yielding, "1", 1) == 0;
+    return;
+  }
   for (size_t i = 0; !is_alone && i < sizeof folders/sizeof *folders; i++)
     is_alone = make_session(folders[i]);
   if (!is_alone) return;
@@ -142,4 +150,6 @@ void gfb_started(void)
 {
   starting = 0;
   for (size_t i = 0; is_alone && i < alone_settings; i++) unsetenv(alone[i][0]);
+  if (is_yielding) unsetenv(yielding);
+  is_yielding = 0;
 }
