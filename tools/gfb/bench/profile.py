@@ -174,4 +174,33 @@ WORDS = """## What was changed, and what did not pay
   bearings (30 to 190 N, long, short, thin foil, three pads, tilted): position, pressure and torque 0.4 to 3 times those of equal rows (half of them
   better, a short and a lightly loaded one worse), the smallest film 0.2 to 1.5 % off instead of 0.06 to 1.5 %, and 4.6 % instead of 0.1 % at 190 N
   (nodes miss the narrow minimum). Equal rows stay the default.
+
+## Small runs, studies, ranks, sweeps of frequencies
+
+Two cores with a load of five to seven by other jobs: CPU times of pairs in turn, instructions by callgrind, counts.
+
+- **A start** (`gfb --help`): 84 % of its 221 million instructions are the loader's, MPI has 15 %, PETSc and the program the rest. Debian's PETSc brings
+  112 libraries; two thirds of all instructions look for the names of Trilinos, which gfb never calls. With Trilinos first in the line, without
+  hwloc's plug-ins and collective calls of many ranks 178 million, 0.120 to 0.100 s (medians of 40), 3281 to 2968 system calls; where OpenBLAS falls back
+  0.254 to 0.142 s, for it chooses again in the same process. A program that does nothing and is linked with this PETSc takes 0.6 of a start: 0.05 s
+  on a quiet core needs a PETSc without Trilinos, HYPRE, X11 and OpenCL.
+- **Set-up and output**: fields in natural order went through a new scatter each; on one rank they are permuted: three cold foundations 2.29 to 2.14
+  thousand million instructions, output of the main job 0.24 to 0.16 s. Its set-up (0.35 to 0.45 s in runs side by side) did not change beyond the noise. A tenth
+  of a cold foundation is `matmul` and deflate: loops in place of the first change last digits (libgfortran fuses products and sums), the second is the size
+  of files. Left.
+- **A study of 1,980 foundations** (`gfb.study`, speed and clearance, 209 x 32, 3,908 unknowns, 2 processes, before the permutation): 388 CPU s of gfb, 3 of Python:
+  5.1 a second and core; all have an answer, 13.2 factorizations each. 10,000 were not run: 35 minutes of both cores. 100 of them in one process: 18.3 s
+  before, 15.2 s after the start was made cheaper. Where they go: first answer 52 %, output 20 %, meshes 16 %, judging 10 %. KLU has 12 %, so that factors
+  kept from member to member cannot win more than that; 50 a second are out of reach while each starts cold.
+- **A point of a sweep** of such a foundation (101 speeds): 29 ms, 200 million instructions. Newton's four iterations take no new factorization, for factors are kept
+  from point to point already; they are 22 % of it. The one factorization is that of the determinant's sign, which tells folds, and is 32 % with its matrix.
+  The film's fields and their files are 29 %.
+- **209 x 64 elements on two ranks** (53,876 unknowns, waiting not counted, two rounds): 9.5 and 9.1 s to 6.8 s, 1.35 to 1.40. Factorization 5.8 to 4.2 s (1.38),
+  assembly 1.65, set-up 1.3, output 0.3 to 0.4 s on the first rank. Were all but the factorization halved, it would be 1.55: what is missing is in MUMPS' last fronts.
+  Four ranks were not measured: two cores.
+- **Ranks on busy cores**: the limit cycles pass 266,000 messages and 246,000 sums in 61,000 iterations; 21 CPU s on one rank, 380 on two, where each waited for
+  the other to get a core. Since waiting ranks yield, one orbit takes 10 to 13 CPU s for 28 to 53 (one rank: 3.5). On quiet cores this was not measured.
+- **Frequencies of neighbouring speeds** (shells, 105 x 16, 30 frequencies, five speeds 3 % apart): 62 factorizations of vibrations, 12.4 a speed. Tables of neighbours
+  differ by 1.3 % of the largest entry, and four neighbours tell the middle one to 0.6 % only, for contacts change. A basis that is a hundredth off gives 1e-4 at best,
+  where 3e-7 is asked for: the residual would ask for the samples again. Not built.
 """
