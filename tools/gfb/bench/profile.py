@@ -188,7 +188,7 @@ Two cores with a load of five to seven by other jobs: CPU times of pairs in turn
   thousand million instructions, output of the main job 0.24 to 0.16 s. Its set-up (0.35 to 0.45 s in runs side by side) did not change beyond the noise. A tenth
   of a cold foundation is `matmul` and deflate: loops in place of the first change last digits (libgfortran fuses products and sums), the second is the size
   of files. Left.
-- **A study of 1,980 foundations** (`gfb.study`, speed and clearance, 209 x 32, 3,908 unknowns, 2 processes, before the permutation): 388 CPU s of gfb, 3 of Python:
+- **A study of 1,980 foundations** (`gfb.study`, speed and clearance, 216 x 32, 3,908 unknowns, 2 processes, before the permutation): 388 CPU s of gfb, 3 of Python:
   5.1 a second and core; all have an answer, 13.2 factorizations each. 10,000 were not run: 35 minutes of both cores. 100 of them in one process: 18.3 s
   before, 15.2 s after the start was made cheaper. Where they go: first answer 52 %, output 20 %, meshes 16 %, judging 10 %. KLU has 12 %, so that factors
   kept from member to member cannot win more than that; 50 a second are out of reach while each starts cold.
