@@ -143,6 +143,7 @@ contains
     logical, intent(in) :: needed
     character(len=*), parameter :: no_heat = ' with &thermal, in this version'
     logical :: real_gas, turbulent, ideal_turbulence, even
+    logical :: real_needed !! the keys of a real gas are: with heat it is refused anyway
 
     call keys%choice_key('equation_of_state', said%state, state_words, &
                          'density of an ideal gas, or by Peng and Robinson')
@@ -150,13 +151,15 @@ contains
                          'laminar film, or the factors of Ng and Pan')
     real_gas = said%state == second_word
     turbulent = said%turbulence == second_word
+    real_needed = real_gas .and. .not. said%heated
     ideal_turbulence = turbulent .and. .not. (real_gas .or. said%table)
     call keys%rule(group, 'equation_of_state', said%heated .and. real_gas, &
                    "must be 'ideal'"//no_heat)
     call keys%rule(group, 'turbulence', said%heated .and. turbulent, "must be 'none'"//no_heat)
     even = gas%viscosity_law == viscosity_sutherland .and. .not. said%heated
     call key('temperature', gas%temperature, 'K', 'temperature of the gas, even and constant '// &
-             'without `&thermal`', positive, real_gas .or. ideal_turbulence .or. even, &
+             'without `&thermal`', positive, real_needed .or. even .or. ideal_turbulence .and. &
+             .not. said%heated, &
              real_gas .or. said%table .or. turbulent .or. even .or. said%heated, &
              "viscosity_law = 'sutherland', equation_of_state = 'peng_robinson', a table, "// &
              'turbulence of an ideal gas, or &thermal')
@@ -170,11 +173,11 @@ contains
              'ambient gas', any_value, gas%viscosity_law == viscosity_power, &
              gas%viscosity_law == viscosity_power, "viscosity_law = 'power'")
     call key('critical_temperature', said%critical_temperature, 'K', 'of the gas', positive, &
-             real_gas, real_gas, "equation_of_state = 'peng_robinson'")
-    call key('critical_pressure', said%critical_pressure, 'Pa', 'of the gas', positive, real_gas, &
-             real_gas, "equation_of_state = 'peng_robinson'")
-    call key('acentric_factor', said%acentric_factor, '1', 'of the gas', any_value, real_gas, &
-             real_gas, "equation_of_state = 'peng_robinson'")
+             real_needed, real_gas, "equation_of_state = 'peng_robinson'")
+    call key('critical_pressure', said%critical_pressure, 'Pa', 'of the gas', positive, &
+             real_needed, real_gas, "equation_of_state = 'peng_robinson'")
+    call key('acentric_factor', said%acentric_factor, '1', 'of the gas', any_value, &
+             real_needed, real_gas, "equation_of_state = 'peng_robinson'")
     call key('viscosity_exponent', gas%law%viscosity_exponent, '1', 'viscosity of a real gas '// &
              'is in proportion to this power of its density', any_value, .false., &
              (real_gas .or. said%table) .and. .not. said%viscosities, &
