@@ -254,9 +254,9 @@ contains
     case ('transient', 'periodic')
       groups = ' pads bore shaft_contact '
     case ('load_capacity', 'misalignment_allowance')
-      groups = ' pads bore shaft_contact sweep accuracy sample '
+      groups = ' pads bore thermal shaft_contact sweep accuracy sample '
     case default
-      groups = ' pads bore shaft_contact sweep sensitivity accuracy sample '
+      groups = ' pads bore thermal shaft_contact sweep sensitivity accuracy sample '
     end select
   end function offered
 
@@ -332,6 +332,9 @@ contains
               "&accuracy quantity='minimum_gap' /"
     end select
     words = words//'&sample count=100 /'
+    if (index(offered(analysis), ' thermal ') == 0) return
+    words = words//' &thermal shaft_conductance=0.3 sleeve_conductance=1.0 '// &
+            'bump_conductance=190.0 shaft_expansion=12.0e-6 sleeve_expansion=12.0e-6 /'
   end function bearing_example
 
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.
