@@ -14,12 +14,17 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification
 from gfb_run import Bearing, Checks, case_groups, solve  # noqa: E402
 
 BEARING = Bearing()
+HEAT = {"shaft_conductance": 0.1, "shaft_expansion": 1.2e-5, "sleeve_conductance": 1.0, "top_foil": "given", "top_foil_temperature": 300.0}
+HOT = {"running_clearance": ("clearance [um]", 1.0e6), "shaft_temperature": ("shaft [K]", 1.0),
+       "maximum_film_temperature": ("hottest film [K]", 1.0)}  # in the log's table: its head, and table's number over SI number
 KEYS = {"parameter": "bearing%clearance", "values": (20.0e-6, 21.0e-6)}
 
 
-def sweep(folder, name, swept, options=(), status=0, load=(-20.0, 0.0)):
+def sweep(folder, name, swept, options=(), status=0, load=(-20.0, 0.0), heat=None):
     """The answer of a small rigid bearing along a sweep."""
     groups = {} if swept is None else {"sweep": swept}
+    if heat:
+        groups |= {"thermal": heat}
     content = case_groups(BEARING, mesh=(48, 8), number=2.0, load=load, groups=groups)
     return solve(folder, name, content, options=options, status=status)
 
@@ -43,6 +48,17 @@ def check_table(checks, answer, points):
         for name, column in zip(names, zip(*rows)):
             same = all(one == other or math.isnan(one) and math.isnan(other) for one, other in zip(column, history[name][...]))
             checks.that(f"{answer.stem.name}: {name} to the last digit", same)
+
+
+def check_heat(checks, folder):
+    """With heat the log's table has the running clearance and temperatures, to the digits of the history."""
+    hot = sweep(folder, "hot", {"parameter": "load", "values": (20.0, 30.0)}, heat=HEAT)
+    head, *rows = re.search(r"^points of the sweep\n-+\n(.*?)\n\n", hot.log, re.M | re.S)[1].splitlines()
+    heads, rows = re.split(r"  +", head.strip()), [line.split() for line in rows]
+    for name, (column, scale) in HOT.items():
+        told = [float(row[heads.index(column)]) for row in rows] if column in heads else []
+        checks.that(f"{column}: at both points", len(told) == 2)
+        checks.that(f"{column}: {name}", all(abs(one/(scale*number) - 1.0) < 1.0e-4 for one, number in zip(told, hot.history()[name])))
 
 
 def main():
@@ -69,6 +85,7 @@ def main():
         single = sweep(folder, "single", None)
         checks.that("no sweep: no table", not (folder/"single.csv").exists() and "point  " not in single.log)
         check_table(checks, sweep(folder, "single", None, options=("--csv",)), 1)
+        check_heat(checks, folder)
     checks.close()
 
 

@@ -54,6 +54,9 @@ module gfb_bearing_writing
     column_type('eccentricity_y', 'e_y [um]', 1.0e6_wp, 'eccentricity_x'), &
     column_type('attitude_angle', 'attitude [deg]', 1.0_wp), &
     column_type('minimum_gap', 'film [um]', 1.0e6_wp), &
+    column_type('running_clearance', 'clearance [um]', 1.0e6_wp), &
+    column_type('shaft_temperature', 'shaft [K]', 1.0_wp), &
+    column_type('maximum_film_temperature', 'hottest film [K]', 1.0_wp), &
     column_type('force_x', 'force_x [N]', 1.0_wp, 'force_y'), &
     column_type('force_y', 'force_y [N]', 1.0_wp, 'force_x'), &
     column_type('torque_x', 'torque_x [N m]', 1.0_wp, 'torque_y'), &
