@@ -22,6 +22,7 @@ sys.path.insert(0, str(PROJECT/"tools"))
 
 from gfb.plot import film as plot_film  # noqa: E402 (found only now)
 from gfb.plot import foil as plot_foil  # noqa: E402
+from gfb.plot import heat as plot_heat  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.plot import polar as plot_polar  # noqa: E402
 from gfb.plot import rotor as plot_rotor  # noqa: E402
@@ -277,6 +278,91 @@ class BearingTest(unittest.TestCase):
                             (("b.h5", "--show", "bumps"), "not a strip under loads")):
             status, said = call(self.folder, *words)
             self.assertEqual((status, text in said), (1, True), said)
+
+
+class HeatTest(unittest.TestCase):
+    """A made-up speed sweep with heat, whose third point is a fold, and a film."""
+
+    speed = (1000.0, 2000.0, 3000.0, 2500.0)
+    columns = {"power_loss": (10.0, 20.0, 40.0, 50.0), "heat_to_shaft": (-1.0, 2.0, 4.0, 5.0), "heat_to_top_foil": (10.0, 16.0, 32.0, 40.0),
+               "heat_through_bumps": (10.0, 16.0, 32.0, 40.0), "heat_to_channel": (0.0,)*4, "heat_by_gas": (1.0, 2.0, 4.0, 5.0),
+               "film_temperature": (300.0,)*4, "maximum_film_temperature": (310.0,)*4, "shaft_temperature": (310.0, 320.0, 350.0, 380.0),
+               "running_clearance": (3.0e-5, 2.5e-5, 2.0e-5, 1.5e-5), "minimum_gap": (1.2e-5, 1.4e-5, 1.0e-5, 0.5e-5)}
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(plot_strip.pyplot.close, "all")
+        self.folder = pathlib.Path(folder.name)
+
+    def case(self, name, rows=slice(None), fold=True):
+        """An open case file of some of the points."""
+        file = h5py.File(self.folder/name, "w")
+        self.addCleanup(file.close)
+        file["scene/used"] = "&bearing\n  clearance = 3.2e-5\n/\n&sweep\n  parameter = 'speed_rpm'\n/\n"
+        for column, values in self.columns.items():
+            file[f"history/{column}"] = numpy.array(values)[rows]
+            file[f"history/{column}"].attrs["unit"] = ""
+        file["history/speed_rpm"] = numpy.array(self.speed)[rows]
+        file["history/speed_rpm"].attrs["unit"] = "rpm"
+        if fold:
+            file["history/fold"] = (numpy.array(self.speed) == 3000.0)[rows].astype(float)
+        file["summary/converged"] = float(fold)
+        return file
+
+    def test_bars_are_the_ways_of_the_heat(self):
+        bars, levels = plot_heat.draw(pathlib.Path("a.h5"), self.case("a.h5"), [1], "speed_rpm").axes
+        self.assertEqual([bar.get_width() for bar in bars.patches], [10.0, -1.0, 10.0, 1.0])  # nothing goes into a channel
+        self.assertEqual([text.get_text().split()[-2:] for text in bars.texts[1:]], [["-10", "%"], ["100", "%"], ["10", "%"]])
+        self.assertEqual([text.get_text() for text in levels.texts], ["300.0 K, at most 310.0 K", "310.0 K"])
+
+    def test_a_held_top_foil_takes_what_nothing_carries_on(self):
+        self.columns = self.columns | {"heat_through_bumps": (0.0,)*4}
+        bars = plot_heat.draw(pathlib.Path("a.h5"), self.case("a.h5"), [2], "speed_rpm").axes[0]
+        self.assertEqual([bar.get_width() for bar in bars.patches], [20.0, 2.0, 2.0, 16.0])
+        self.assertEqual(bars.get_yticklabels()[-1].get_text(), "into the top foil, held")
+
+    def test_runaway_is_where_a_hotter_shaft_turns_the_branch_back(self):
+        charts = plot_heat.draw(pathlib.Path("a.h5"), self.case("a.h5"), [], "speed_rpm").axes
+        words = [text.get_text() for text in charts[1].get_legend().get_texts()]
+        self.assertEqual(words, ["running clearance", "thinnest film", "clearance, cold", "runaway: 3,000 rpm"])
+        solid, pale = charts[1].lines[:2]
+        numpy.testing.assert_allclose(solid.get_xydata(), [(1000.0, 30.0), (2000.0, 25.0), (3000.0, 20.0)])
+        numpy.testing.assert_allclose(pale.get_xydata(), [(3000.0, 20.0), (2500.0, 15.0)])
+        numpy.testing.assert_allclose(charts[3].lines[0].get_ydata(), (-10.0, 10.0, 10.0))  # part of the power, shaft
+        self.columns = self.columns | {"shaft_temperature": (380.0, 350.0, 320.0, 310.0)}
+        charts = plot_heat.draw(pathlib.Path("b.h5"), self.case("b.h5"), [], "speed_rpm").axes
+        self.assertEqual(charts[1].get_legend().get_texts()[-1].get_text(), "turns back: 3,000 rpm")
+
+    def test_a_sweep_that_ends_early_says_where(self):
+        charts = plot_heat.draw(pathlib.Path("a.h5"), self.case("a.h5", slice(2), fold=False), [], "speed_rpm").axes
+        self.assertEqual(charts[0].get_legend().get_texts()[-1].get_text(), "last answer: 2,000 rpm")
+
+    def test_film_marks_its_hottest_place(self):
+        theta, z = numpy.meshgrid(numpy.radians((0.0, 90.0, 180.0, 270.0)), (-0.01, 0.0, 0.01), indexing="ij")
+        fields = {"temperature": (300.0 + 10.0*numpy.sin(theta) - 1.0e4*z**2, "K"), "heat_flux_shaft": (2.0e3*numpy.sin(theta), "W/m2")}
+        with h5py.File(self.folder/"a.film.vtkhdf", "w") as file:
+            file["VTKHDF/Points"] = numpy.column_stack((theta.ravel(), 0.0*z.ravel(), z.ravel()))
+            file["VTKHDF/PointData/theta"] = theta.ravel()
+            for name, (values, unit) in fields.items():
+                file[f"VTKHDF/PointData/{name}"] = values.ravel()
+                file[f"VTKHDF/PointData/{name}"].attrs["unit"] = unit
+            charts = plot_heat.draw_film(self.folder/"a.film.vtkhdf", file).axes
+        rings = [line.get_xydata().tolist() for line in charts[0].lines if line.get_marker() == "o"]
+        numpy.testing.assert_allclose(rings, [[(90.0, 0.0)]], atol=1.0e-12)
+        numpy.testing.assert_allclose(charts[3].lines[0].get_ydata(), (0.0, 2.0, 0.0, -2.0), atol=1.0e-12)  # kW/m2 at the midplane
+
+    def test_calls(self):
+        self.case("a.h5").close()
+        with h5py.File(self.folder/"cold.h5", "w") as file:
+            file["history/power_loss"], file["scene/used"] = [1.0], used(0.1)
+        for words, text in ((("a.h5", "--show", "heat", "--step", "9"), "no point 9; there are 1 to 4"),
+                            (("a.h5", "--show", "heat", "--step", "1,2"), "the heat of one point is drawn"),
+                            (("a.h5", "minimum_gap", "--show", "heat"), "without columns"),
+                            (("cold.h5", "--show", "heat"), "the case has no &thermal")):
+            status, said = call(self.folder, *words)
+            self.assertEqual((status, text in said), (1, True), f"{words}: {said}")
+        self.assertEqual(call(self.folder, "a.h5", "--show", "heat"), (0, "drawn: a.h5.heat.png\n"))
 
 
 class RotorTest(unittest.TestCase):

@@ -45,8 +45,8 @@ def readable(data):
     return data[...]*scale, name
 
 
-def read_film(path, file):
-    """The film of an open file."""
+def read_film(path, file, names=FIELDS):
+    """The film of an open file, with the fields of these names that it has."""
     points = file["VTKHDF/Points"][...]
     fields = file["VTKHDF/PointData"]
     rows = int(numpy.count_nonzero(points[:, 0] == points[0, 0]))
@@ -56,7 +56,7 @@ def read_film(path, file):
     theta = numpy.degrees(fields["theta"][...].reshape(shape)[:, 0])
     if theta[-1] <= theta[0]:  # a full ring ends where it begins
         theta[-1] += 360.0
-    there = [name for name in FIELDS if name in fields]
+    there = [name for name in names if name in fields]
     z = points[:rows, 2]
     z = z - 0.5*(z[0] + z[-1])  # of the second bearing of a rotor, too, from its midplane
     return Film(theta, z, {name: fields[name][...].reshape(shape) for name in there},
@@ -120,7 +120,8 @@ def draw_map(figure, chart, film, values, levels, **look):
     """Colours over theta and z, with their scale; levels: the borders of the colours, or about how many."""
     if numpy.ndim(levels) == 0 and numpy.ptp(values) > 0.0:
         levels = round_numbers(levels).tick_values(values.min(), values.max())
-    figure.colorbar(chart.contourf(film.theta, 1.0e3*film.z, values.T, levels=levels, **look), ax=chart, ticks=round_numbers(6))
+    figure.colorbar(chart.contourf(film.theta, 1.0e3*film.z, values.T, levels=levels, **look), ax=chart, ticks=round_numbers(6),
+                    spacing="proportional")
     chart.set_ylabel("z [mm]")
 
 

@@ -3,6 +3,7 @@
   tools/plot CASE.film.vtkhdf           maps of pressure, gap and deflection, and their lines along
                                         the midplane and the bearing's edge
       --show polar                        pressure and gap around the shaft, with load, pad edges and thinnest film
+      --show heat                         of &thermal: temperatures of film and top foil, heat into the shaft
   tools/plot CASE.bump_foil.vtkhdf      the bumps' deflected midline and their crests' deflections
   tools/plot CASE.top_foil.vtkhdf       map of a bearing's top foil, and lines along midplane and edges
   tools/plot CASE.bump_foil.vtkhdf MODE ...   shapes of modes, such as mode_1 (also of the top foil)
@@ -11,6 +12,8 @@
       --together                          columns of one unit in one chart
   tools/plot CASE.h5 --show dynamics    stiffness and damping over the frequency of vibration; of a sweep
                                         the last point, or the one of --step
+  tools/plot CASE.h5 --show heat        of &thermal: where the heat goes, and temperatures; of a sweep along it with running clearance,
+                                        thinnest film and runaway, of one of its points with --step
   tools/plot SAMPLE.h5 [COLUMN ...]     of &sample: histogram and cumulative share of minimum_gap, or of other results
   tools/plot STRIP.h5 ...               strips under loads, one or several in a picture:
       --show bumps                        mean deflection of every crest line
@@ -46,7 +49,7 @@ draw_into_files()
 from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
-from gfb.plot import animation, dynamics, foil, periodic, polar, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot import animation, dynamics, foil, heat, periodic, polar, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, round_numbers, step_words  # noqa: E402
 from gfb.results import BROKEN, Unreadable, attribute, open_results, reading, text_of  # noqa: E402
@@ -57,6 +60,7 @@ USUAL_OF_LIMITS = {  # what is looked for, and what it makes of the bearing
     "load_capacity": ("load_capacity", "load_capacity_coefficient", "attitude_angle", "friction_torque"),
     "lift_off_speed_rpm": ("lift_off_speed_rpm", "minimum_gap", "attitude_angle", "friction_torque"),
     "misalignment_allowance": ("misalignment_allowance", "attitude_angle", "maximum_pressure", "friction_torque")}
+OF_FILMS = {polar.KIND: polar.draw, heat.KIND: heat.draw_film}  # beside what is drawn unasked
 ROUND_OFF = 1.0e-12  # of the largest number of a unit: a smaller one is zero
 USUAL_OF_ONE = ("force_x", "force_y", "eccentricity_x", "eccentricity_y", "attitude_angle", "minimum_gap", "minimum_gap_midplane",
                 "minimum_gap_edge", "maximum_pressure", "minimum_pressure", "torque_x", "torque_y", "friction_torque", "power_loss",
@@ -74,8 +78,8 @@ def main():
                         help="the picture; default: beside the file, its name with what is shown and .png")
     parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
-    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, polar.KIND, *rotor.KINDS, *transient.KINDS),
-                        help="what of a strip's or bearing's CASE.h5; polar: of CASE.film.vtkhdf")
+    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, polar.KIND, heat.KIND, *rotor.KINDS, *transient.KINDS),
+                        help="what of a strip's or bearing's CASE.h5; polar, heat: of CASE.film.vtkhdf, too")
     parser.add_argument("--3d", action="store_true", dest="rolled", help="film and foils rolled up on the shaft")
     parser.add_argument("--picture-only", action="store_true", help="with --3d: no CASE.3d.vtkhdf")
     parser.add_argument("--animate", action="store_true", help="a moving picture of a sweep's film, or of an orbit")
@@ -156,6 +160,8 @@ def draw(options, paths, files):
         return transient.draw(path, file, options.show)
     if options.show == polar.KIND:
         return draw_polar(options, path, file)
+    if options.show == heat.KIND:
+        return draw_heat(options, path, file)
     if periodic.is_periodic(file) and not (options.show or options.step or options.columns) and len(files) == 1:
         return periodic.draw(path, file)
     of_strips = options.show or options.step or len(files) > 1
@@ -185,17 +191,19 @@ def draw(options, paths, files):
 def draw_step(options, path, file):
     """The picture of a step: of the last one, where none is named."""
     many = steps.count(file)
-    if options.show not in (None, polar.KIND) or options.columns or len(options.step) > 1:
-        stop("of a file with steps one is drawn, --step N, without columns and --show but polar")
+    if options.show not in (None, *OF_FILMS) or options.columns or len(options.step) > 1:
+        stop("of a file with steps one is drawn, --step N, without columns and --show but polar and heat")
     number = options.step[0] if options.step else many
     if not 1 <= number <= many:
         stop(f"{path}: no step {number}; there are {many}")
     one = steps.at_step(file, number - 1)
     try:
         if options.show and foil.is_foil(one):
-            stop(f"{path}: a foil; --show polar is of CASE.film.vtkhdf")
-        drawing = draw_polar_step if options.show else foil.draw if foil.is_foil(one) else lambda path, file, _: draw_film(path, file)
-        figure = drawing(steps.alone(path), one, [])
+            stop(f"{path}: a foil; --show {options.show} is of CASE.film.vtkhdf")
+        if foil.is_foil(one):
+            figure = foil.draw(steps.alone(path), one, [])
+        else:
+            figure = OF_FILMS.get(options.show, draw_film)(steps.alone(path), one)
     finally:
         one.close()
     what = steps.alone(path).name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
@@ -210,9 +218,15 @@ def draw_polar(options, path, file):
     return polar.draw(path, file)
 
 
-def draw_polar_step(path, file, _):
-    """The same of a step."""
-    return polar.draw(path, file)
+def draw_heat(options, path, file):
+    """Heat of a film, or of a case file."""
+    if options.columns or foil.is_foil(file):
+        stop(f"{path}: --show heat is of CASE.film.vtkhdf or CASE.h5, without columns")
+    if "VTKHDF" in file:
+        if options.step:
+            stop("--step is of CASE.film.steps.vtkhdf or CASE.h5")
+        return heat.draw_film(path, file)
+    return heat.draw(path, file, options.step, swept(file))
 
 
 def list_names(path, file):
