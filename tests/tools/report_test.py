@@ -22,6 +22,9 @@ SMALL = {"scene": {"title": "small & <rigid>", "analysis": "equilibrium"},
          "model": {"foil": "rigid"}, "mesh": {"circumferential_elements": 48, "axial_elements": 8}}
 
 
+HEAT = {"shaft": "given", "shaft_temperature": 320.0, "sleeve_conductance": 1.0, "top_foil": "given", "top_foil_temperature": 310.0}
+
+
 class Page(html.parser.HTMLParser):
     """Whether every tag is closed, what the page refers to, and its text."""
 
@@ -56,7 +59,7 @@ class ReportTest(unittest.TestCase):
         cls.addClassCleanup(place.cleanup)
         cls.folder = pathlib.Path(place.name)
         case = gfb.Case(SMALL)
-        cls.first = gfb.run(case, cls.folder, "first")
+        cls.first = gfb.run(gfb.Case(SMALL | {"thermal": HEAT}), cls.folder, "first")
         case["accuracy%quantity"], case["accuracy%target"] = "minimum_gap", 0.05
         gfb.run(case, cls.folder, "second")
         case = gfb.Case(SMALL)
@@ -80,7 +83,12 @@ class ReportTest(unittest.TestCase):
         self.assertRegex(words, r"minimum_gap [0-9.e-]+ [0-9.e-]+ ± [0-9.e-]+ m smallest film thickness")
         self.assertIn("48 x 8", words)
         self.assertIn("program_version", words)
-        self.assertEqual(sum(source.startswith("data:image/png") for source in page.sources), 6)  # three of each
+        self.assertEqual(sum(source.startswith("data:image/png") for source in page.sources), 8)  # three of each, two of heat
+        flows = {name: self.first[name] for name in ("power_loss", "heat_to_shaft", "heat_to_top_foil", "heat_by_gas")}
+        self.assertLess(flows["heat_to_shaft"], 0.0)  # the shaft is the hotter wall
+        part = {name: f"{flow:.6g} {100.0*flow/flows['power_loss']:.3g}" for name, flow in flows.items()}
+        self.assertIn(f"Where the heat goes: first heat [W] [%] power loss {part['power_loss']} into the shaft {part['heat_to_shaft']} "
+                      f"with the film's gas {part['heat_by_gas']} into the top foil, held {part['heat_to_top_foil']}", words)
 
     def test_a_sweep_without_an_answer_beside_its_result(self):
         status, said = report(self.folder/"beyond.unconverged")

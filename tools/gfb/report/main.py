@@ -18,6 +18,7 @@ import tempfile
 import jinja2
 
 from gfb.case import Case, program
+from gfb.heat import HEATED, balance
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
 from gfb.tool import draw_into_files, stop
 
@@ -75,12 +76,12 @@ def read_run(stem, gfb):
         case_file = text_of(file["scene/case_file"][()])
         used = Case.parse(text_of(file["scene/used"][()]))
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
-        shows = [name for name in ("contact", "dynamics", "transient") if name in file]
+        shows = [name for name in ("contact", "dynamics", "transient") if name in file] + ["heat"]*(HEATED in table)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
     return {"name": stem.name, "title": used.groups.get("scene", {}).get("title", ""), "summary": summary,
             "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
-            "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
+            "heat": heat_rows(summary), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
             "needs": needs_of(case_file, gfb), "pictures": pictures_of(stem, points, shows)}
 
 
@@ -126,6 +127,11 @@ def pictures_of(stem, points, shows):
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
     wanted[1:1] = [("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]),
                    ("film and foils around the shaft, heights and displacements drawn larger", [f"{stem}.film.vtkhdf", "--3d", "--picture-only"])]
+    if "heat" in shows:
+        wanted += [("temperatures of film and top foil, and heat into the shaft", [f"{stem}.film.vtkhdf", "--show", "heat"]),
+                   ("heat along the points" if points > 1 else "where the heat goes, and how hot it is", [f"{stem}.h5", "--show", "heat"])]
+        if points > 1:
+            wanted.append(("heat at the last point", [f"{stem}.h5", "--show", "heat", "--step", str(points)]))
     if "transient" in shows:
         wanted.append(("orbit and thinnest film", [f"{stem}.h5"]))
     elif points > 1:
@@ -154,6 +160,15 @@ def drawn(arguments, picture):
 
 
 # --- tables ---
+
+def heat_rows(summary):
+    """Where the heat goes [W, % of the power loss]; empty without heat."""
+    if HEATED not in summary:
+        return []
+    flows = balance({name: one["value"] for name, one in summary.items()})
+    power = flows[0][1]
+    return [(words, number(flow), f"{100.0*flow/power:.3g}" if power > 0.0 else "") for words, flow in flows]
+
 
 def answer_rows(runs):
     """Name, meaning, unit, and the value with its error of every run; errors have no row of their own."""
