@@ -2,6 +2,7 @@
 
 Capacity of a bearing 43.7 mm in diameter and 34.9 mm long from 20,000 to 68,000 rpm, shells, and the drag of a longer one under
 light loads; the foils are those of [Gu2020], because those of the measured bearings were not published (a quarter of an hour and more).
+--heat: only the capacity of one of these bearings once more, with heat and growth (a quarter of an hour, too).
 """
 
 import itertools
@@ -41,6 +42,19 @@ RESTS_ON = (  # what each of them assumes beyond what all do
     "bumps as stiff at the edges as in the middle", "the same; rows finer at the edges", "a top foil twice as thick", OUTER,
     f"{OUTER}; a top foil twice as thick", "a top foil made 0.11 mm wider than the bore")
 DRAG_VARIANTS = tuple(list(VARIANTS)[i] for i in (0, 3, 5))
+WALLS = {"shaft_conductance": 0.45, "sleeve_conductance": 1.0}  # a solid shaft of 100 mm to each side, a housing of 0.1 m2 in still air [W/K]
+GROWTH = {"shaft_expansion": 1.2e-5, "sleeve_expansion": 1.2e-5, "shaft_density": 7850.0, "shaft_youngs_modulus": 2.1e11,
+          "shaft_poissons_ratio": 0.3}
+HEATED = {  # words: &thermal, and what a line assumes
+    "one temperature": (None, "gas of 1.85e-5 Pa s"),
+    "heat, nothing grows": (WALLS, "0.45 W/K from the shaft, 1 W/K from the sleeve, bumps as estimated"),
+    "heat and growth": (WALLS | GROWTH, "the same; shaft and sleeve of steel, which grow by 12e-6/K, the shaft with its speed, too"),
+    "heat and growth, heat leaves twice as easily": (
+        {name: 2.0*value for name, value in WALLS.items()} | {"bump_conductance": 380.0} | GROWTH,
+        "0.9 W/K, 2 W/K, bumps 380 W/(m2 K)"),
+}
+HEAT_ROWS = 8
+HEAT_MARK = "<!-- heat -->\n"
 HEAD = """# Measured numbers of others
 
 Written by `tools/bench measured --docs`.
@@ -56,7 +70,7 @@ Foils are shells. The mesh has {arc} elements an arc and {flat} a flat, {around}
 equilibrium from which to look for it). Nothing was fitted.
 """
 MIDDLE = """In the middle of the width the film is then {least:.1f} to {most:.1f} um: where that is the smallest film nearly, the whole width is at its
-limit; where it is more, the edges are, where the pressure falls and the bumps hold the foil up. What still differs: heat (a thin film
+limit; where it is more, the edges are, where the pressure falls and the bumps hold the foil up. What still differs: heat (below; a thin film
 is hot, and a hot gas is more viscous; shaft and foils grow), coatings that wear in, the criterion (tests end where the torque rises or
 the shaft rubs, at films that nobody measured), and the foils, which are not those of the test."""
 LOADS = """
@@ -84,15 +98,32 @@ its foils rest on above. Measured bearings rub, too, at start and where rows of 
 """
 
 
+HEAT = """
+## Once more with heat and growth
+
+`tools/bench measured --heat --docs`: the bearing of 352 kPa above, *one strip*, on {rows} rows, at three speeds from the lowest up.
+Conductances are the estimates of [heat.md](../manual/heat.md#which-conductances-do-i-need-and-where-from), which no test of this bearing tells;
+ambient air and far places have 293.15 K; viscosity by Sutherland. Nothing was fitted.
+
+{table}
+*n*: W grows as speed^n from 20,000 to 36,000 rpm. The last columns are those of the last speed that has an answer: clearance when
+it runs, shaft above ambient. *none*: no equilibrium under the 120 N with which the search for a limit begins.
+
+"""
+
+
 def add_options(parser):
     """The command's own options."""
     parser.add_argument("--quick", action="store_true", help="planar beams, three variants, a coarse mesh (a minute)")
     parser.add_argument("--docs", action="store_true", help="write docs/measured/comparisons.md")
+    parser.add_argument("--heat", action="store_true", help="only the lines with heat, of the page only their part")
     parser.add_argument("--gap", type=float, default=1.0e-6, metavar="M", help="smallest film at the limit; default: %(default)s m")
 
 
 def run(options):
     """Computes all lines; returns the tables, and writes the page where that is asked for."""
+    if options.heat:
+        return run_heat(options)
     with tempfile.TemporaryDirectory() as folder:
         answers = {}
         for words, variant in list(VARIANTS.items())[:3 if options.quick else None]:
@@ -101,11 +132,59 @@ def run(options):
         loads = load_table(answers)
         drags, reached, spread = drag_table(options, folder)
     if options.docs and not options.quick:
+        heat = HEAT_MARK + PAGE.read_text(encoding="utf-8").partition(HEAT_MARK)[2]
         PAGE.write_text(HEAD.format(gap=options.gap*1.0e6, bumps=BUMPS, arc=ARC, flat=FLAT, around=BUMPS*(ARC + FLAT))
                         + LOADS.format(measured=MEASURED, table=markdown_table(*loads), said=said_of(answers))
-                        + DRAGS.format(table=markdown_table(*drags), least=min(reached), most=max(reached), spread=spread),
+                        + DRAGS.format(table=markdown_table(*drags), least=min(reached), most=max(reached), spread=spread) + heat,
                         encoding="utf-8")
     return plain_table(*loads) + "\n" + plain_table(*drags)
+
+
+def run_heat(options):
+    """The lines with heat; of the page the part behind their mark, whose words below the table stay."""
+    with tempfile.TemporaryDirectory() as folder:
+        found = {}
+        for words, (thermal, _) in HEATED.items():
+            found[words] = run_file(options.gfb, write_case(folder, "capacity", heat_groups(options, thermal)), folder, seconds=1800)
+            if found[words].status not in (0, 2):
+                raise SystemExit(found[words].log)
+            print(f"{words}:", *(f"{load:.0f}" for load in found[words].history()["load_capacity"]), "N", flush=True)
+        table = heat_table({words: answer.history() for words, answer in found.items()})
+    if options.docs and not options.quick:
+        write_heat(table)
+    return plain_table(*table)
+
+
+def heat_groups(options, thermal):
+    """The case of a line with heat, or of the one without."""
+    groups = groups_of(options, LENGTH, HEAT_ROWS, 1.0, THIN, {"thickness": THIN}, 0.0) | {
+        "scene": {"analysis": "load_capacity"}, "capacity": {"smallest_gap": options.gap},
+        "operation": {"speed_rpm": SPEEDS[0], "load": (-120.0, 0.0)}, "sweep": {"parameter": "speed_rpm", "values": SPEEDS}}
+    if thermal is None:
+        return groups
+    return groups | {"thermal": thermal, "gas": {"viscosity_law": "sutherland", "ambient_pressure": 1.0135e5}}
+
+
+def heat_table(histories):
+    """A line a variant."""
+    heads = ["", "assumes", *(f"{speed:,.0f} rpm" for speed in SPEEDS), "n", "clearance [um]", "shaft [K]"]
+    rows = []
+    for words, history in histories.items():
+        loads, reached = ([*history[name], math.nan, math.nan, math.nan][:3] for name in ("load_capacity", "limit_reached"))
+        hot = "shaft_temperature" in history
+        rows.append([words, HEATED[words][1], *(number(load, ".0f") + ("" if limit or math.isnan(load) else " *") for load, limit in zip(loads, reached)),
+                     number(math.log(loads[1]/loads[0])/math.log(SPEEDS[1]/SPEEDS[0]), ".2f"),
+                     f"{1.0e6*history['running_clearance'][-1]:.1f}" if hot else "31.8",
+                     f"{history['shaft_temperature'][-1] - 293.15:+.0f}" if hot else ""])
+    return "load capacity with heat [N]", heads, rows
+
+
+def write_heat(table):
+    """The part of the page with heat."""
+    before, _, after = PAGE.read_text(encoding="utf-8").partition(HEAT_MARK)
+    words = after.partition("<!-- words -->\n")[2]
+    PAGE.write_text(before.rstrip("\n") + "\n\n" + HEAT_MARK + HEAT.format(rows=HEAT_ROWS, table=markdown_table(*table))
+                    + "<!-- words -->\n" + words, encoding="utf-8")
 
 
 def groups_of(options, length, rows, finer, top, bumps, larger):
