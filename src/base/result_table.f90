@@ -438,8 +438,12 @@ module gfb_result_table
     result_type('member_<n>', '', word, ensemble + sample, '{case file}', &
       'name of the case, and how it ended; of a sample seed and reason of a member without '// &
       'answer'), &
-    result_type('seed', '1', total, sample, 'that chooses the random heights', &
-      'history: seed that chooses the random heights of the member'), &
+    result_type('seed', '1', total, sample, 'that chooses what is random', &
+      'history: seed that chooses the random heights of the member, and its values of the '// &
+      '`parameters` of `&sample`'), &
+    result_type('value_of_<key>', own_unit, number, sample, &
+      'of {a key that the members have other values of}', &
+      'history: value of a key among the `parameters` of `&sample`, `_` in the place of its `%`'), &
     result_type('<quantity>_mean', own_unit, number, sample, 'mean over the members', &
       'mean, standard deviation and quantiles (in percent) of that quantity over the members '// &
       'that have an answer'), &

@@ -21,7 +21,8 @@ module gfb_scene_reading
   use gfb_changed_text, only: changed_text, changed_list_text
   implicit none (type, external)
   private
-  public :: read_scene, read_scene_text, scene_at_value, scene_with_key, key_table, all_keys
+  public :: read_scene, read_scene_text, scene_at_value, scene_with_key, scene_with_keys, &
+            key_table, all_keys
 
   character(len=*), parameter :: word_needed = &
     'needs a parameter that is a word, such as ''load'': '
@@ -259,6 +260,58 @@ contains
                    'derive one member by its seed')
   end subroutine check_sensitivity
 
+  !> Looks up what a sample draws, notes units and values, and complains about what no answer
+  !> follows and about ends of a range that break a rule.
+  subroutine check_sampled_keys(keys, scene, strict)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(inout) :: scene !! gets the parameters
+    logical, intent(in), optional :: strict
+    type(swept_key_type), allocatable :: list(:)
+    type(case_keys_type) :: known, changed
+    type(scene_type) :: there
+    type(parameter_type) :: one
+    character(len=:), allocatable :: problem, words
+    real(wp), allocatable :: value(:)
+    integer :: i, k
+
+    associate (asked => scene%sample)
+      if (.not. asked%present .or. asked%names == '') return
+      list = named_keys(asked%names)
+      call keys%rule('sample', 'factors', size(asked%factors) /= size(list), 'must have one '// &
+                     'value a parameter: '//text(size(list))//', not '//text(size(asked%factors)))
+      known = keys
+      do i = 1, size(list)
+        one%key = list(i)
+        call look_up(keys, scene, one%key, one%unit, problem)
+        if (problem == '' .and. one%key%element == every_element) problem = one%key%label()// &
+          ': a value is drawn for one element'
+        if (problem == '') then
+          value = list_values(keys, one%key, scene%bump_foil)
+          one%value = value(max(1, one%key%element))
+          if (.not. abs(one%value) > 0.0_wp) problem = one%key%label()// &
+            ' is 0: no factor changes it'
+        end if
+        do k = 1, size(asked%parameter)
+          if (asked%parameter(k)%key%label() == one%key%label()) problem = one%key%label()// &
+            ' is given twice'
+        end do
+        if (problem == '') asked%parameter = [asked%parameter, one]
+        if (problem /= '' .and. asked%strings == size(list)) then
+          call keys%complain('sample', parameters, problem, i)
+        else if (problem /= '') then
+          call keys%complain('sample', parameters, problem)
+        end if
+        if (problem /= '' .or. size(asked%factors) /= size(list)) cycle
+        if (.not. asked%factors(i) >= 1.0_wp) cycle ! which was told
+        do k = -1, 1, 2 ! both ends
+          words = text_with_key(scene, scene%verbatim, one%key, one%value*asked%factors(i)**k)
+          call read_and_check(words, scene%file, .false., changed, there, strict)
+          call keys%add_new(changed, known, 'sample', parameters, i)
+        end do
+      end do
+    end associate
+  end subroutine check_sampled_keys
+
   !> Adds a parameter with its unit and value; of a whole list all its values.
   subroutine add_parameter(keys, scene, key, tolerance, problem)
     type(case_keys_type), intent(in) :: keys
@@ -329,6 +382,7 @@ contains
     if (line > 0) call keys%warn_of_line(line, 'the byte '//text(byte)//' is no UTF-8: it is '// &
                                          'read as a character of Latin-1; save the file as UTF-8')
     call check_sensitivity(keys, scene)
+    call check_sampled_keys(keys, scene, strict)
     call check_swept_keys(keys, scene, sweeps_keys)
     if (sweeps_keys) call check_swept_values(keys, scene, strict)
     scene%echo = keys%book%echo()
@@ -401,6 +455,26 @@ contains
     if (present(at) .and. scene%sweep%parameter == sweep_keys) words = text_at_value(scene, at)
     call read_bearing(text_with_key(scene, words, key, value), scene, there, error)
   end subroutine scene_with_key
+
+  !> The bearing of a scene with other values of some keys, on its mesh.
+  !>
+  !> Fails where the values break a rule.
+  subroutine scene_with_keys(scene, parameter, value, there, error)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(parameter_type), intent(in) :: parameter(:) !! the keys
+    real(wp), intent(in) :: value(:) !! [its unit] of each key
+    type(scene_type), intent(out) :: there !! the scene with the values in it
+    type(error_type), allocatable, intent(out) :: error !! which rule is broken
+    character(len=:), allocatable :: words
+    integer :: i
+
+    words = scene%verbatim
+    do i = 1, size(parameter)
+      words = text_with_key(scene, words, parameter(i)%key, value(i))
+    end do
+    call read_bearing(words, scene, there, error)
+    there%model%reduction = scene%model%reduction ! it is chosen for all members
+  end subroutine scene_with_keys
 
   !> The bearing of a scene as another text describes it.
   subroutine read_bearing(words, scene, there, error)

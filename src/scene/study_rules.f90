@@ -280,8 +280,9 @@ contains
     if (keys%meant('bump_foil', 'height_deviation')) then
       call check_heights(keys, scene)
     else
-      call keys%complain(group, key, 'needs height_deviation in &bump_foil: without it all '// &
-                         'members are the same')
+      call keys%rule(group, key, .not. keys%holds(group, 'parameters'), 'needs '// &
+                     'height_deviation in &bump_foil, or parameters: without them all members '// &
+                     'are the same')
     end if
     call keys%rule(group, key, scene%sweep%present, one_answer)
     call keys%rule(group, key, scene%accuracy%present, 'cannot stand beside &accuracy: one '// &
@@ -337,7 +338,9 @@ contains
     member%sample%present = .false.
     associate (foil => member%bump_foil)
       foil%random%seed = scene%bump_foil%random%seed + number - 1
-      call draw_gaps(foil%random, foil%bumps, foil%strips*scene%bearing%pads, foil%crest_gap)
+      if (foil%random%deviation > 0.0_wp) then
+        call draw_gaps(foil%random, foil%bumps, foil%strips*scene%bearing%pads, foil%crest_gap)
+      end if
       member%name = scene%name//'.seed'//text(foil%random%seed)
     end associate
   end function sample_member

@@ -44,6 +44,7 @@ COARSER = (  # which inputs, what is changed
     (r"rigid_slit|rigid_ring_sweep", FILM),
     (r"foundation_.*_sweep", FILM),
     (r"thermal_runaway", {"mesh": {"circumferential_elements": 60, "axial_elements": 6}}),
+    (r"thermal_spread", {"mesh": {"circumferential_elements": 60, "axial_elements": 6}, "sample": {"count": 3}}),
     (r"thermal_shell", {"mesh": {"circumferential_elements": 104, "axial_elements": 6, "arc_elements": 4, "flat_elements": 1}}),
     (r"gu2020_fig11[ab]_.*", SHELLS | TWO_TILTS),
     (r"gu2020_bearing_fig10", SHELLS | {"sweep": {"values": (200.0, 175.0)}}),

@@ -15,6 +15,9 @@ PLACE = ("eccentricity_x", "eccentricity_y", "minimum_gap", "friction_torque", "
 SMOOTH = ("eccentricity_x", "minimum_gap", "friction_torque")
 FOIL = {"youngs_modulus": 2.14e11, "poissons_ratio": 0.29}
 BUMPS = 8
+HEAT = {"shaft_conductance": 0.3, "sleeve_conductance": 1.0, "bump_conductance": 190.0, "shaft_expansion": 1.2e-5, "cooling_flow": 1.0e-4,
+        "channel_conductance": 180.0, "channel_sleeve_conductance": 50.0}
+FACTORS = {"thermal%bump_conductance": 2.0, "thermal%shaft_conductance": 3.0, "bearing%clearance": 1.1}
 
 
 def bearing(folder, name, groups=(), bump_foil=(), ranks=1, options=(), status=0):
@@ -167,6 +170,34 @@ def check_vibrations(checks, folder):
     checks.below("vibrations: mean critical mass", many["critical_mass_mean"]/rows["critical_mass"].mean() - 1.0, 1.0e-14)
 
 
+def heated(folder, name, keys=(), groups=(), ranks=1, options=()):
+    """A small rigid bearing with heat; keys: other values, by their names."""
+    content = case_groups(Bearing(), mesh=(32, 4), number=2.0, load=(-20.0, 0.0), groups={
+        "top_foil": {"thickness": 1.0e-4}, "thermal": HEAT, **dict(groups)})
+    for key, value in dict(keys).items():
+        group, _, word = key.partition("%")
+        content[group] = content[group] | {word: value}
+    return solve(folder, name, content, ranks, options)
+
+
+def check_parameters(checks, folder):
+    """Keys scatter by their factors; a member is the single run with its values, and groups of ranks do not matter."""
+    asked = {"sample": {"count": COUNT, "parameters": list(FACTORS), "factors": list(FACTORS.values())}}
+    many = heated(folder, "scattered", groups=asked)
+    rows, given = many.history(), {"thermal%bump_conductance": 190.0, "thermal%shaft_conductance": 0.3, "bearing%clearance": Bearing.clearance}
+    values = {key: rows[f"value_of_{key.replace('%', '_')}"] for key in FACTORS}
+    powers = {key: numpy.log(values[key]/given[key])/numpy.log(factor) for key, factor in FACTORS.items()}
+    checks.that("parameters: values lie between the ends", all(abs(power).max() < 1.0 for power in powers.values()))
+    spread = numpy.concatenate(list(powers.values()))
+    checks.that("parameters: to both sides, no two the same", spread.min() < -0.3 and spread.max() > 0.3 and len(set(spread)) == len(spread))
+    one = heated(folder, "single", {key: float(value[3]) for key, value in values.items()})
+    names = ("shaft_temperature", "running_clearance", "minimum_gap", "heat_to_channel")
+    checks.below("parameters: a member is the single run with its values", max(abs(rows[name][3]/one[name] - 1.0) for name in names), 1.0e-10)
+    checks.below("parameters: deviation of the shaft's temperature", many["shaft_temperature_deviation"]/rows["shaft_temperature"].std(ddof=1) - 1.0, 1.0e-9)
+    other = heated(folder, "scattered", groups=asked, ranks=2, options=("--groups", "2")).history()
+    checks.below("parameters: two groups", max(largest_difference(rows[name], other[name]) for name in (*names, "value_of_bearing_clearance")), 1.0e-8)
+
+
 def check_no_answer(checks, folder):
     """Members without an answer are named, and not in the statistics."""
     none = bearing(folder, "few", {**sampled(2), "solver": {"maximum_iterations": 1}}, random(0.5*MICROMETRE), status=2)
@@ -184,6 +215,7 @@ def main():
         check_small_spread(checks, folder)
         check_first_order(checks, folder)
         check_vibrations(checks, folder)
+        check_parameters(checks, folder)
         check_no_answer(checks, folder)
     checks.close()
 

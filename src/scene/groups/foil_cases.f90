@@ -609,8 +609,10 @@ contains
                          default=no_default, given=random)
       right = keys%last_key_is_right()
       useless = unless(random .or. .not. foil%present, 'needs height_deviation')
-      call keys%integer_key('seed', law%seed, 'chooses the random heights: the same seed gives '// &
-                            'the same ones', at_least(0.0_wp), useless=useless)
+      call keys%integer_key('seed', law%seed, 'chooses the random heights, and what else '// &
+                            '`&sample` draws: the same seed gives the same ones', &
+                            at_least(0.0_wp), useless=unless(useless == '' .or. &
+                            keys%holds('sample', 'parameters'), useless))
       right = right .and. (keys%last_key_is_right() .or. .not. keys%key%given)
       word = 1
       call keys%choice_key('deviation_law', word, law_words, 'law of the random heights', &

@@ -2,7 +2,7 @@
 !> `&capacity` and `&output`.
 module gfb_study_cases
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, from_to, between, not_negative, positive
+  use gfb_case_keys, only: case_keys_type, from_to, at_least, between, not_negative, positive
   use gfb_scene_case, only: analysis_modes, misplaced_group, analysis_strip, is_bearing, &
                             analysis_equilibrium, analysis_fixed_position, analysis_load_capacity, &
                             analysis_lift_off, analysis_misalignment, asks_limit
@@ -64,13 +64,6 @@ module gfb_study_cases
   integer, parameter :: most_members = 1000000
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a percentage that is whole
 
-  !> What is drawn, and what is said of it.
-  type :: sample_case_type
-    logical :: present = .false.          !! the case asks for it
-    integer :: count = 0                  !! members
-    real(wp), allocatable :: quantiles(:) !! parts of the members below them [1]
-  end type sample_case_type
-
   integer, parameter :: most_tolerances = 1000 !! of a list
 
   !> Results whose derivatives are offered, in the order in which the solver has them.
@@ -90,6 +83,17 @@ module gfb_study_cases
     real(wp) :: value = 0.0_wp     !! in the case file [its unit]
     real(wp) :: tolerance = 0.0_wp !! standard deviation [its unit]
   end type parameter_type
+
+  !> What is drawn, and what is said of it.
+  type :: sample_case_type
+    logical :: present = .false.          !! the case asks for it
+    integer :: count = 0                  !! members
+    real(wp), allocatable :: quantiles(:) !! parts of the members below them [1]
+    character(len=:), allocatable :: names !! `group%key, ...` of keys that are drawn
+    integer :: strings = 0                 !! in which they stand
+    real(wp), allocatable :: factors(:)    !! by which they scatter, one a key [1]
+    type(parameter_type), allocatable :: parameter(:) !! the keys, once they are checked
+  end type sample_case_type
 
   !> The derivatives asked for.
   type :: sensitivity_case_type
@@ -200,6 +204,16 @@ contains
                             'in whole hundredths', between(0.0_wp, 1.0_wp), .false., &
                             '0.05, 0.25, 0.5, 0.75, 0.95')
     if (size(sample%quantiles) == 0) sample%quantiles = usual
+    call keys%names_key('parameters', sample%names, sample%strings, 'keys that each member '// &
+                        'has other values of, such as `''thermal%bump_conductance''`', .false., &
+                        'none')
+    call keys%real_list_key('factors', sample%factors, most_tolerances, '1', &
+                            'a member''s value lies between that of the file over this factor '// &
+                            'and times it, even in its logarithm; one a parameter', &
+                            at_least(1.0_wp), .false., 'none')
+    call keys%rule('sample', 'factors', size(sample%factors) > 0 .and. sample%names == '', &
+                   'needs parameters')
+    allocate (sample%parameter(0))
     do i = 1, size(sample%quantiles)
       associate (hundredths => 100.0_wp*sample%quantiles(i))
         if (abs(hundredths - percent_of(sample%quantiles(i))) < rounding) cycle
@@ -233,7 +247,7 @@ contains
     call keys%names_key('parameters', sensitivity%names, sensitivity%strings, &
                         'keys by which they are derived, such as `''bump_foil%thickness''`; '// &
                         'of a list a value, `''bump_foil%crest_gap(2)''`, or all, `(:)`; '// &
-                        '`''operation%load''` is its magnitude')
+                        '`''operation%load''` is its magnitude', .true.)
     call keys%real_list_key('tolerances', sensitivity%tolerances, most_tolerances, &
                             'those of parameters', 'standard deviation of each of them: the '// &
                             'variance is told that they cause', not_negative, .false., 'none')

@@ -313,18 +313,20 @@ contains
   end subroutine words_key
 
   !> Names of real keys of the case file, which may stand in one string or in several.
-  subroutine names_key(self, name, names, strings, meaning)
+  subroutine names_key(self, name, names, strings, meaning, required, default)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     character(len=:), allocatable, intent(out) :: names !! in lower case, with commas between them
     integer, intent(out) :: strings !! in which they stand
     character(len=*), intent(in) :: meaning !! of the key, a sentence
+    logical, intent(in) :: required !! where its group is there
+    character(len=*), intent(in), optional :: default !! in words
     character(len=:), allocatable :: problem
     integer, allocatable :: elements(:)
     integer :: i
 
     call self%describe(name, 'list of real keys `''group%key''`', '', meaning)
-    call self%begin_key('', most_words, elements, .true.)
+    call self%begin_key('', most_words, elements, required, default)
     names = ''
     strings = size(elements)
     do i = 1, strings

@@ -9,17 +9,19 @@ module gfb_sample
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use gfb_kinds, only: wp
   use gfb_bearing_record, only: analysis_name
+  use gfb_bump_heights, only: even_deviations
   use gfb_bearing_summary, only: cost_type, cost_quantities
   use gfb_case_file, only: case_array_type, history_row_type, add_array, history_values
   use gfb_errors, only: error_type
-  use gfb_quantity, only: quantity_type, add_quantity, quantity_word
-  use gfb_result_names, only: asked_names, result_unit, add_result
+  use gfb_quantity, only: quantity_type, add_quantity, number_quantity, quantity_word
+  use gfb_result_names, only: asked_names, result_unit, result_meaning, add_result
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_result_table, only: all_members, seed_and_reason, name_length
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
   use gfb_study_cases, only: percent_of
   use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: scene_with_keys
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_text_file, only: table_member_type
   use gfb_text, only: text
@@ -37,7 +39,9 @@ module gfb_sample
   character(len=name_length), parameter :: shown(*) = [character(len=name_length) :: &
     'minimum_gap', 'eccentricity_x', 'eccentricity_y', 'force_x', 'force_y', 'friction_torque', &
     'maximum_pressure', 'stiffness_xx', 'stiffness_yy', 'loading_stiffness', 'maximum_force', &
-    'dissipated_energy', 'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance']
+    'dissipated_energy', 'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance', &
+    'shaft_temperature', 'maximum_film_temperature', 'maximum_top_foil_temperature', &
+    'running_clearance']
 
   character(len=*), parameter :: group = '/sample/' !! of the result file
 
@@ -304,8 +308,9 @@ contains
     type(scene_type) :: there
     type(run_context_type) :: quiet
     type(error_type), allocatable :: error
+    real(wp) :: value(size(scene%sample%parameter))
 
-    there = sample_member(scene, number)
+    call draw_member(scene, number, there, value, error)
     quiet = context
     quiet%log%silent = .true.
     nullify (quiet%listener)
@@ -317,8 +322,8 @@ contains
         member%reason = 'not computed, '//stop_words()
       else
         allocate (study, mold=self%pattern)
-        call study%prepare(there, quiet%log)
-        call study%check(there, error)
+        if (.not. allocated(error)) call study%prepare(there, quiet%log)
+        if (.not. allocated(error)) call study%check(there, error)
         if (.not. allocated(error)) call study%solve(there, quiet, error)
         if (allocated(error)) then
           member%status = error%status
@@ -333,12 +338,55 @@ contains
         self%factorizations_finest = self%factorizations_finest + study%factorizations_finest
       end if
       call add_result(member%row%quantity, 'seed', there%bump_foil%random%seed)
+      call add_values(scene, value, member%row%quantity)
       call add_result(member%row%quantity, 'exit_status', member%status)
       if (member%status == 0) call add_numbers(study%found, member%row%quantity)
       call show_member(context, member, number, size(self%member))
     end associate
     if (allocated(study)) call study%discard()
   end subroutine solve_member
+
+  !> A member: the scene with another seed, and values of its parameters that the seed chooses.
+  !>
+  !> Fails where the values break a rule together.
+  subroutine draw_member(scene, number, member, value, error)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    integer, intent(in) :: number !! of the member, from 1
+    type(scene_type), intent(out) :: member !! what is asked of it
+    real(wp), intent(out) :: value(:) !! [its unit] of each parameter
+    type(error_type), allocatable, intent(out) :: error !! which rule is broken
+    type(scene_type) :: there
+
+    member = sample_member(scene, number)
+    associate (asked => scene%sample)
+      value = asked%parameter%value*asked%factors**even_deviations( &
+              member%bump_foil%random%seed, size(value))
+      if (size(value) == 0) return
+      call scene_with_keys(scene, asked%parameter, value, there, error)
+      if (.not. allocated(error)) member = sample_member(there, number)
+    end associate
+  end subroutine draw_member
+
+  !> Adds the values of the parameters.
+  subroutine add_values(scene, value, list)
+    type(scene_type), intent(in) :: scene
+    real(wp), intent(in) :: value(:) !! [its unit]
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    character(len=:), allocatable :: name
+    integer :: i, k
+
+    do i = 1, size(value)
+      associate (parameter => scene%sample%parameter(i))
+        name = parameter%key%label()
+        do k = 1, len(name)
+          if (scan(name(k:k), '%()') > 0) name(k:k) = '_'
+        end do
+        call add_quantity(list, number_quantity('value_of_'//name, value(i), parameter%unit, &
+                                                result_meaning('value_of_'//name, &
+                                                               parameter%key%label())))
+      end associate
+    end do
+  end subroutine add_values
 
   !> Adds what is a number.
   subroutine add_numbers(found, list)
