@@ -36,13 +36,15 @@ class Run(dict):
 
 class ThermalTest(unittest.TestCase):
     def test_iterations_are_those_behind_the_isothermal_answer(self):
-        self.assertEqual(thermal.iterations_of_heat(LOG), 2)
+        self.assertEqual(thermal.iterations_of_heat(LOG), (2, 2))
+        finer = LOG.replace("\nanswer", "film 120 x 16\n    1   1.0   1.0   1.0   new\n\nanswer")
+        self.assertEqual(thermal.iterations_of_heat(finer), (3, 1))
 
     def test_ratios_are_of_one_round_and_without_the_start(self):
         rounds = [[Run(1.1, 2.0), Run(2.1, 3.0)], [Run(2.1, 2.0), Run(4.1, 3.0)], [Run(1.1, 2.0), Run(9.1, 3.0)]]
         self.assertAlmostEqual(thermal.ratio(rounds, 0.1), 2.0)
         row = thermal.table_of({"rigid": rounds}, 0.1)[2][0]
-        self.assertEqual(row, ["rigid", "10", "10", "1.00", "4.00", "2.00", "2", "2", "3", "10.0"])
+        self.assertEqual(row, ["rigid", "10", "10", "1.00", "4.00", "2.00", "2", "2", "2", "3", "10.0"])
 
     def test_missed_aims_are_named(self):
         good, bad = [[Run(1.0, 2.0), Run(1.4, 4.0)]], [[Run(1.0, 2.0), Run(1.6, 5.0, LOG.replace("answer\n", LOG*3, 1))]]

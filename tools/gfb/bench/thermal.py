@@ -32,9 +32,9 @@ tools/bench thermal --docs --repetitions {repetitions}
 The bearing and the walls of [inputs/thermal_bearing.nml](../../inputs/thermal_bearing.nml), 60 N at 30,000 rpm, on the default
 meshes, on one rank; *without* is the same case without `&thermal`, at ambient temperature. Times are CPU times of whole runs less the
 start of MPI, medians of the rounds; *ratio* is the median of the ratios inside the rounds, which other work on the machine moves
-least. *Iterations* are Newton's after the isothermal answer that a run with heat begins with; *finest* are factorizations of the finest
-mesh. Aims: {iterations} iterations, {factorizations} factorizations more on the finest mesh, 2.5 times the time for rigid and foundation, 1.5
-times for beams and shells.
+least. *Iterations* are Newton's after the isothermal answer that a run with heat begins with, on all meshes from there on; of them
+*on the finest* those of the finest mesh, to which the aim is held. *Factors* are factorizations of the finest mesh. Aims: {iterations}
+iterations, {factorizations} factorizations more, 2.5 times the time for rigid and foundation, 1.5 times for beams and shells.
 
 {table}
 {missed}
@@ -108,9 +108,11 @@ def measure(gfb, model, folder):
 
 
 def iterations_of_heat(log):
-    """Newton's iterations between the line that heat begins and the answer, of a log with all of them."""
+    """Newton's iterations between the line that heat begins and the answer, of a log with all of them: all, and on the last mesh."""
     begun = log.rpartition("\nheat\n")[2].partition("\nanswer\n")[0]
-    return len(re.findall(r"^ +[1-9]\d* +[-+.\dE]+ +[-+.\dE]+ +[.\d]+ +\w+ *$", begun, re.MULTILINE))
+    meshes = re.split(r"^film \d+ x \d+$", begun, flags=re.MULTILINE)
+    counts = [len(re.findall(r"^ +[1-9]\d* +[-+.\dE]+ +[-+.\dE]+ +[.\d]+ +\w+ *$", part, re.MULTILINE)) for part in meshes]
+    return sum(counts), counts[-1]
 
 
 def ratio(rounds, start):
@@ -131,11 +133,11 @@ def table_of(measured, start):
         cold, heated = rounds[0]
         times = [statistics.median(one[i].cpu - start for one in rounds) for i in (0, 1)]
         rows.append([model, *(f"{answer['unknowns']:,.0f}" for answer in (cold, heated)), *(f"{time:.2f}" for time in times),
-                     f"{ratio(rounds, start):.2f}", f"{iterations_of_heat(heated.log)}",
+                     f"{ratio(rounds, start):.2f}", *map(str, iterations_of_heat(heated.log)),
                      *(f"{answer['factorizations_finest']:.0f}" for answer in (cold, heated)),
                      f"{heated['shaft_temperature'] - AMBIENT:.1f}"])
-    heads = ["bearing", "unknowns, without", "with heat", "CPU, without [s]", "with heat [s]", "ratio", "iterations", "finest, without",
-             "with heat", "shaft warmer by [K]"]
+    heads = ["bearing", "unknowns, without", "with heat", "CPU, without [s]", "with heat [s]", "ratio", "iterations", "on the finest",
+             "factors, without", "with heat", "shaft warmer by [K]"]
     return "CPU times beyond the start of MPI", heads, rows
 
 
@@ -145,7 +147,8 @@ def missed_aims(measured, start):
         aim = MODELS[model][1]
         if ratio(rounds, start) > aim:
             yield f"{model}: {ratio(rounds, start):.2f} times the time without heat; the aim is {aim:g}"
-        if iterations_of_heat(rounds[0][1].log) > ITERATIONS:
-            yield f"{model}: {iterations_of_heat(rounds[0][1].log)} iterations after the isothermal answer; the aim is {ITERATIONS}"
+        finest = iterations_of_heat(rounds[0][1].log)[1]
+        if finest > ITERATIONS:
+            yield f"{model}: {finest} iterations with heat on the finest mesh; the aim is {ITERATIONS}"
         if more_on_finest(rounds) > FACTORIZATIONS:
             yield f"{model}: {more_on_finest(rounds):.0f} factorizations more on the finest mesh; the aim is {FACTORIZATIONS}"
