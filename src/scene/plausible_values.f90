@@ -163,7 +163,8 @@ module gfb_plausible_values
     reason_type('contact%exponent', 'bounded by its rule'), &
     reason_type('mesh%edge_refinement', 'from 1 to 100 by its rule'), &
     reason_type('accuracy%target', 'between 0 and 1 by its rule'), &
-    reason_type('sample%quantiles', 'between 0 and 1 by their rule')]
+    reason_type('sample%quantiles', 'between 0 and 1 by their rule'), &
+    reason_type('sample%factors', 'at least 1 by their rule')]
 
   type(unit_type), parameter, public :: units(*) = [ &
     unit_type('mm', 1.0e-3_wp), unit_type('um', 1.0e-6_wp), &
