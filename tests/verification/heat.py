@@ -163,6 +163,19 @@ def check_accuracy(checks, folder):
     checks.that(f"error of a heat {error:.2e} W, told {answer['heat_to_shaft_error']:.2e} W", error < answer["heat_to_shaft_error"] < 0.1)
 
 
+def check_capacity(checks, folder):
+    """Beams with heat: the second load that is tried lies beyond the limit, and no path leads back from there."""
+    metal = {"thickness": 1.02e-4, "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "fixed_edge": "trailing"}
+    groups = changed(BY_NAME["load_growth"]["groups"], mesh={"circumferential_elements": 240, "axial_elements": 4})
+    groups |= {"model": {"foil": "beam"}, "top_foil": metal, "operation": {"speed_rpm": 20000.0, "load": (-60.0, 0.0)}, "bump_foil": metal | {
+        "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "bumps": 26}}
+    groups["thermal"] |= {"shaft_conductance": 0.3, "sleeve_conductance": 1.0, "bump_conductance": 190.0, "shaft_density": 7850.0}
+    limit = solve(folder, "capacity", changed(groups, scene={"analysis": "load_capacity"}, capacity={"smallest_gap": 1.0e-6}))
+    between = solve(folder, "between", changed(groups, operation={"load": (-150.0, 0.0)}))
+    checks.that(f"film of {between['minimum_gap']:.2e} m at 150 N", between["minimum_gap"] > 1.0e-6)
+    checks.that(f"load capacity {limit['load_capacity']:.2f} N, at the limit", limit["limit_reached"] and limit["load_capacity"] > 150.0)
+
+
 def main():
     checks = Checks()
     everything = "--long" in sys.argv
@@ -170,6 +183,7 @@ def main():
         check_reference(checks, folder, BY_NAME if everything else FEW, 1)
         if everything:
             check_reference(checks, folder, BY_NAME, 2)
+            check_capacity(checks, folder)
         check_order(checks, folder)
         check_isothermal(checks, folder)
         check_couette(checks, folder)

@@ -332,7 +332,8 @@ contains
     end subroutine look
   end subroutine pass_limit
 
-  !> False position between both sides, from the second one's answer.
+  !> False position between both sides, from the second one's answer; where no path leads back from that, from the last answer on
+  !> the near side.
   subroutine close_in(limit, path, bearing, newton, sides, report)
     type(limit_type), intent(in) :: limit
     type(path_settings_type), intent(in) :: path
@@ -350,6 +351,10 @@ contains
       last = sides%bracket%high
       trial = sides%bracket%trial()
       call follow_path(bearing, newton, limit%point_with(bearing%point, trial), 1.0_wp, path, report)
+      if (.not. report%converged() .and. sides%within%created) then
+        call sides%within%restore(bearing)
+        call follow_path(bearing, newton, limit%point_with(bearing%point, trial), 1.0_wp, path, report)
+      end if
       left = limit%reserve(bearing)
       if (.not. left < 0.0_wp) call sides%within%save(bearing)
       if (.not. report%converged()) return
