@@ -248,10 +248,12 @@ contains
     case ('modes')
       groups = ' '
     case ('linear_dynamics')
-      groups = ' pads bore shaft_contact sweep rotor '
+      groups = ' pads bore thermal shaft_contact sweep rotor '
     case ('lift_off') ! which needs asperities
-      groups = ' pads bore sweep accuracy sample '
-    case ('transient', 'periodic')
+      groups = ' pads bore thermal sweep accuracy sample '
+    case ('transient')
+      groups = ' pads bore thermal shaft_contact '
+    case ('periodic')
       groups = ' pads bore shaft_contact '
     case ('load_capacity', 'misalignment_allowance')
       groups = ' pads bore thermal shaft_contact sweep accuracy sample '
@@ -311,10 +313,8 @@ contains
     select case (analysis)
     case ('linear_dynamics')
       words = words//sweep//'&dynamics frequency_ratios=0.5, 1.0 / &rotor mass=1.0 /'
-      return
     case ('transient')
       words = words//'&rotor mass=1.0 / &transient turns=0.2 / &unbalance unbalance=2.0e-6 /'
-      return
     case ('load_capacity')
       words = words//"&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 / "// &
               "&capacity smallest_gap=4.0e-6 / &accuracy quantity='load_capacity' /"
@@ -331,7 +331,7 @@ contains
               "parameters='bearing%clearance', 'gas%viscosity' tolerances=1.0e-6, 2.0e-7 / "// &
               "&accuracy quantity='minimum_gap' /"
     end select
-    words = words//'&sample count=100 /'
+    if (index(offered(analysis), ' sample ') > 0) words = words//'&sample count=100 /'
     if (index(offered(analysis), ' thermal ') == 0) return
     words = words//' &thermal shaft_conductance=0.3 sleeve_conductance=1.0 '// &
             'bump_conductance=190.0 shaft_expansion=12.0e-6 sleeve_expansion=12.0e-6 /'
