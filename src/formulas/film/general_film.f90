@@ -50,8 +50,9 @@ contains
   !>    \lambda = \lambda_a \frac{p_a}{p} $$
   !>
   !> with the density r of `gfb_gas_law`. Sources: [Burgdorfer1959] for slip, [NgPan1965] for the
-  !> factors k. Weighting (SUPG) as in `gfb_reynolds_element`.
-  pure subroutine general_residual(geometry, flow, law, pressure, gap, excess, residual)
+  !> factors k. Weighting (SUPG) as in `gfb_reynolds_element`; without it temperatures may differ
+  !> from point to point: with it their slopes would count, see `gfb_heated_film`.
+  pure subroutine general_residual(geometry, flow, law, pressure, gap, excess, residual, factors)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(film_flow_type), intent(in) :: flow !! speed and weighting of the film
     type(gas_law_type), intent(in) :: law    !! of the gas
@@ -59,6 +60,7 @@ contains
     real(wp), intent(in) :: gap(:)       !! film thickness at the nodes [m]
     real(wp), intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
     real(wp), intent(out) :: residual(:) !! one a node [Pa m3/s]
+    type(gas_factors_type), intent(in), optional :: factors(:) !! of other temperatures there
     real(wp) :: shapes(size(gap), size(gap)), flux_x, flux_z
     type(film_flow_type) :: local
     type(point_type) :: here
@@ -70,7 +72,8 @@ contains
     do i = 1, size(gap)
       associate (gradient => geometry%gradient(:, :, i), length => geometry%stream_length(i))
         local = flow_here(flow, geometry%stretch(i))
-        here = state_at(shapes(:, i), gradient, law, local, pressure, gap, excess(i))
+        here = state_at(shapes(:, i), gradient, law, local, pressure, gap, excess(i), &
+                        factors_at(i, factors))
         flux_x = here%along%f*here%p_x - here%gas%r*here%h*local%entraining_speed
         flux_z = here%across%f*here%p_z
         if (flow%upwind) then
@@ -84,7 +87,7 @@ contains
 
   !> Exact derivatives of `general_residual` by the nodal pressures and gaps, and by the excess.
   pure subroutine general_jacobian(geometry, flow, law, pressure, gap, excess, by_pressure, &
-                                   by_gap, by_excess)
+                                   by_gap, by_excess, factors)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(film_flow_type), intent(in) :: flow !! speed and weighting of the film
     type(gas_law_type), intent(in) :: law    !! of the gas
@@ -94,6 +97,7 @@ contains
     real(wp), intent(out) :: by_pressure(:, :) !! (nodes, nodes) dr_a/dp_b [m3/s]
     real(wp), intent(out) :: by_gap(:, :)      !! (nodes, nodes) dr_a/dh_b [Pa m2/s]
     real(wp), intent(out) :: by_excess(:, :)   !! (nodes, points) [Pa m2/s]
+    type(gas_factors_type), intent(in), optional :: factors(:) !! of other temperatures there
     real(wp) :: shapes(size(gap), size(gap)), x_by_h, z_by_h
     real(wp), dimension(size(gap)) :: x_by_p, z_by_p, x_by_slope
     type(film_flow_type) :: local
@@ -107,7 +111,8 @@ contains
       local = flow_here(flow, geometry%stretch(i))
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), &
                  area => geometry%area(i), speed => local%entraining_speed)
-        here = state_at(shape, gradient, law, local, pressure, gap, excess(i))
+        here = state_at(shape, gradient, law, local, pressure, gap, excess(i), &
+                        factors_at(i, factors))
         x_by_p = shape*(here%along%p*here%p_x - here%gas%r_p*here%h*speed) &
           + here%along%f*gradient(1, :)
         z_by_p = shape*here%across%p*here%p_z + here%across%f*gradient(2, :)
@@ -227,13 +232,14 @@ contains
   end function reynolds_number
 
   !> Pressure, gap, gas and conductances at a Gauss point.
-  pure function state_at(shape, gradient, law, flow, pressure, gap, excess) result(here)
+  pure function state_at(shape, gradient, law, flow, pressure, gap, excess, factors) result(here)
     real(wp), intent(in) :: shape(:)       !! shape functions [1]
     real(wp), intent(in) :: gradient(:, :) !! (2, nodes) their gradients [1/m]
     type(gas_law_type), intent(in) :: law
     type(film_flow_type), intent(in) :: flow
     real(wp), intent(in) :: pressure(:), gap(:) !! at the nodes [Pa], [m]
     real(wp), intent(in) :: excess              !! of the gap over what its nodal values give [m]
+    type(gas_factors_type), intent(in) :: factors !! of another temperature
     type(point_type) :: here
 
     here%p = dot_product(shape, pressure)
@@ -243,7 +249,7 @@ contains
     here%p_z = dot_product(gradient(2, :), pressure - pressure(1))
     here%h_x = dot_product(gradient(1, :), gap)
     here%h_z = dot_product(gradient(2, :), gap)
-    call put_gas(law, flow, here)
+    call put_gas(law, flow, here, factors)
   end function state_at
 
   !> The gas and its conductances at a point's pressure and gap.

@@ -216,7 +216,7 @@ contains
     if (allocated(self%frozen)) factors = self%frozen%factors(:, element)
   end function factors_of
 
-  !> Fields of an element whose temperatures stay.
+  !> Fields of an element whose temperatures stay, where their slopes count.
   pure type(heated_state_type) function frozen_state(film, element, pressure, gap, excess) &
     result(state)
     type(gas_film_type), intent(in) :: film
@@ -393,12 +393,13 @@ contains
         p(:n) = pressure(nodes)
         h(:n) = gap(nodes)
         excess = self%excess(element, point)
-        if (allocated(self%frozen)) then
+        if (allocated(self%frozen) .and. flow%upwind) then
           share(:n) = frozen_residual(self, flow, element, p(:n), h(:n), excess(:n))
         else if (self%law%plain) then
           call reynolds_residual(geometry, flow, p(:n), h(:n), excess(:n), no_source(:n), share(:n))
         else
-          call general_residual(geometry, flow, self%law, p(:n), h(:n), excess(:n), share(:n))
+          call general_residual(geometry, flow, self%law, p(:n), h(:n), excess(:n), share(:n), &
+                                self%factors_of(element))
         end if
         if (allocated(self%past)) then
           share(:n) = share(:n) + storage_residual(geometry, flow, self%law, p(:n), h(:n), &
@@ -433,7 +434,7 @@ contains
       p(:n) = pressure(nodes)
       h(:n) = gap(nodes)
       excess = self%excess(element, point)
-      if (allocated(self%frozen)) then
+      if (allocated(self%frozen) .and. self%flow%upwind) then
         call frozen_jacobian(self, self%flow_at(point), element, p(:n), h(:n), excess(:n), &
                              by_pressure, by_gap, by_excess)
       else if (self%law%plain) then
@@ -441,7 +442,8 @@ contains
                                excess(:n), no_source(:n), by_pressure, by_gap, by_excess)
       else
         call general_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), &
-                              h(:n), excess(:n), by_pressure, by_gap, by_excess)
+                              h(:n), excess(:n), by_pressure, by_gap, by_excess, &
+                              self%factors_of(element))
       end if
       if (allocated(self%past)) then
         call storage_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), h(:n), &
