@@ -23,7 +23,7 @@ module gfb_heated_film
   implicit none (type, external)
   private
   public :: heated_residual, heated_jacobian, heated_shear, heated_shear_rates, gas_factors
-  public :: relative_viscosity
+  public :: relative_viscosity, mean_over_gap
   ! For tests of the numbers with derivatives.
   public :: variable, operator(+), operator(-), operator(*), operator(/), sqrt
 
@@ -310,6 +310,13 @@ contains
     end associate
   end function relative_viscosity
 
+  !> Mean temperature over the gap, \( T - (T_s - T_f)/6 \) [K].
+  elemental real(wp) function mean_over_gap(gas, foil, shaft) result(mean)
+    real(wp), intent(in) :: gas         !! T, at which the gas carries its heat [K]
+    real(wp), intent(in) :: foil, shaft !! T_f, T_s [K]
+    mean = gas + (foil - shaft)/6.0_wp
+  end function mean_over_gap
+
   !> What temperatures make of the gas at points of an element, beside its law at the reference
   !> temperature: where heat stands still the film needs no more of it.
   pure function gas_factors(gas, state, nodes) result(factors)
@@ -324,7 +331,7 @@ contains
     do i = 1, nodes
       associate (at => matmul(shapes(:, i), state%field(:nodes, :)))
         t = at(field_gas)
-        ratio = relative_viscosity(gas, t + (at(field_foil) - at(field_shaft))/6.0_wp)
+        ratio = relative_viscosity(gas, mean_over_gap(t, at(field_foil), at(field_shaft)))
       end associate
       factors(i) = gas_factors_type(gas%reference/t, ratio(1), ratio(1)*sqrt(t/gas%reference))
     end do

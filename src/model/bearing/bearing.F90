@@ -44,6 +44,7 @@ module gfb_bearing
     logical :: shaft_fixed = .false.       !! there are, but fixed at the point's place
     type(pad_type), allocatable :: pad(:)  !! equal ones
     type(film_heat_type) :: heat           !! of film, foils and walls, where it is asked for
+    logical :: sparse = .false.            !! factors of the equations without heat stay sparse
     type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad, heat; the shaft's are scalars
     integer :: unknowns = 0                !! of the bearing, on all ranks
     integer :: first_shaft = 0             !! local unknowns before the shaft's

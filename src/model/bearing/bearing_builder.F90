@@ -158,8 +158,8 @@ contains
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
+    bearing%sparse = scene%model%foil /= foil_shell
     call create_bearing_system(bearing, foil, floats, place)
-    bearing%low_fill = scene%model%foil /= foil_shell .and. .not. bearing%heat%present
     call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
 

@@ -76,6 +76,7 @@ contains
     if (allocated(bearing%numbers)) deallocate (bearing%numbers)
     bearing%term = pad_terms(bearing%heat%present)
     bearing%dense_rows = bearing%floats .or. bearing%heat%present
+    bearing%low_fill = bearing%sparse .and. .not. bearing%heat%present
     call number_unknowns(bearing)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))

@@ -28,7 +28,7 @@ module gfb_gas_film
   integer, parameter :: corners = 4 !! of a cell
 
   !> Fields that stay: temperatures of gas, top foil and shaft, and what they take off the gap.
-  integer, parameter, public :: frozen_growth = 4, frozen_fields = 4
+  integer, parameter, public :: frozen_growth = 4, frozen_fields = frozen_growth
 
   !> Temperatures that stay as they are: heat is slow against what the shaft does.
   type, public :: frozen_heat_type

@@ -4,7 +4,7 @@ module gfb_heat_answer
   use petscvec
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
-  use gfb_heated_film, only: heated_residual, heated_shear, heated_state_type, heated_rows, row_foil, row_shaft, field_gas, &
+  use gfb_heated_film, only: heated_residual, heated_shear, mean_over_gap, heated_state_type, heated_rows, row_foil, row_shaft, field_gas, &
                              field_foil, field_gap, field_shaft
   use gfb_bearing_heat, only: film_heat_type, growth_of
   use gfb_film_heat, only: state_of, walls_of, feed, is_leading, is_trailing
@@ -104,7 +104,7 @@ contains
           state = state_of(heat, pad, number, element, point, unknown, gap)
           call heated_residual(geometry, film%flow_at(point), heat%gas, state, share)
           foil = state%field(:n, field_foil)
-          mean = state%field(:n, field_gas) - (state%field(:n, field_shaft) - foil)/6.0_wp
+          mean = mean_over_gap(state%field(:n, field_gas), foil, state%field(:n, field_shaft))
           channel = spread(heat%cooling_temperature, 1, n)
           if (heat%channels > 0) channel = unknown(heat%first_wall + walls_of(heat, pad, nodes, .false.))
           weight = film%copies*matmul(film%shape, geometry%area)

@@ -28,7 +28,6 @@ contains
     call bearing%get_unknowns(before)
     call free_equations(bearing)
     bearing%heat = heat
-    bearing%low_fill = .false.
     call set_up_equations(bearing)
     allocate (unknown(bearing%local_size()), source=heat%ambient)
     unknown(:pads) = before(:pads)
@@ -38,9 +37,8 @@ contains
 
   !> The bearing at its answer, all temperatures as they are there from now on: heat is slow against what a shaft does. It shares
   !> the foils; `free_equations` frees what it has of its own.
-  subroutine freeze_heat(bearing, low_fill, frozen)
+  subroutine freeze_heat(bearing, frozen)
     type(bearing_system_type), intent(in) :: bearing !! with heat
-    logical, intent(in) :: low_fill !! of the equations without it
     type(bearing_system_type), intent(out) :: frozen
     real(wp) :: unknown(bearing%local_size())
     type(frozen_heat_type) :: film
@@ -63,7 +61,6 @@ contains
       end associate
     end do
     frozen%heat = film_heat_type()
-    frozen%low_fill = low_fill
     call set_up_equations(frozen)
     call frozen%set_unknowns([unknown(:bearing%heat%first(1)), unknown(bearing%first_shaft + 1:)])
   end subroutine freeze_heat

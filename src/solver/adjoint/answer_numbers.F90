@@ -12,8 +12,9 @@ module gfb_answer_numbers
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type, heat_flows
-  use gfb_heated_film, only: heated_state_type, heated_jacobian, heated_shear_rates, heated_rows, heated_fields, row_foil, row_shaft, &
-                             field_pressure, field_gap, field_gas, field_foil, field_shaft
+  use gfb_heated_film, only: heated_state_type, heated_jacobian, heated_shear_rates, mean_over_gap, heated_rows, heated_fields, row_foil, &
+                             row_shaft, field_pressure, field_gap, field_gas, field_foil, field_shaft
+  use gfb_bearing_heat, only: temperatures_at
   use gfb_film_heat, only: state_of, walls_of
   use gfb_heat_answer, only: heat_answer_type, heat_answer
   implicit none (type)
@@ -81,12 +82,13 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! with heat
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp) :: mean(bearing%film_nodes())
-    integer :: i, k
+    integer :: i
 
-    mean = bearing%film_temperature(unknown, 1) + bearing%film_temperature(unknown, 2)/6.0_wp
     do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), here => mean(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node), heat => bearing%heat)
-        here = here - unknown(heat%first_wall + walls_of(heat, pad, [(k, k=1, size(here))], .true.))/6.0_wp
+      associate (pad => bearing%pad(i))
+        associate (t => temperatures_at(bearing%heat, i, pad%mesh%mesh_node, pad%whole%rows(), unknown))
+          mean(pad%first_node + 1:pad%last_node) = mean_over_gap(t(:, 1), t(:, 2), t(:, 3))
+        end associate
       end associate
     end do
   end function mean_temperature
@@ -274,7 +276,7 @@ contains
         by_excess(:, to_top_foil) = sum(of_excess(:, row_foil, :), 1)
         by(:, :, place_torque) = shear
         by_excess(:, place_torque) = of_shear
-        mean = state%field(:n, field_gas) - (state%field(:n, field_shaft) - state%field(:n, field_foil))/6.0_wp
+        mean = mean_over_gap(state%field(:n, field_gas), state%field(:n, field_foil), state%field(:n, field_shaft))
         associate (area => film%geometry(element)%area, shape => film%shape, &
                    h => matmul(state%field(:n, field_gap), film%shape) + state%excess(:n))
           associate (gas => matmul(shape, area*h)/whole(1), off => area*(matmul(mean, shape) - whole(2))/whole(1))

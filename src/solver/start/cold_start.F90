@@ -30,7 +30,7 @@ module gfb_cold_start
   use gfb_model_case, only: foil_rigid
   implicit none (type)
   private
-  public :: start_bearing, start_heated, start_partitioned
+  public :: start_bearing, start_partitioned
 
   integer, parameter :: most_meshes = 24 !! each has half the elements of the next one at least, or lies between two
 
@@ -47,12 +47,34 @@ module gfb_cold_start
 
 contains
 
+  !> The first answer of a scene, with heat or without it. A bearing that there is already is built anew.
+  !>
+  !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
+  subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    type(bearing_plan_type), intent(in) :: plan          !! its meshes
+    type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
+    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
+    type(path_settings_type), intent(in) :: path_settings !! limits of a path
+    type(run_log_type), intent(in) :: log !! gets the lines of progress
+    type(bearing_system_type), target, intent(inout) :: bearing !! is built
+    type(newton_type), target, intent(inout) :: newton          !! its solver, is created
+    type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
+    type(error_type), allocatable, intent(out) :: error !! why it could not be done
+
+    if (scene%thermal%present) then
+      call start_heated(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    else
+      call start_cold(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    end if
+  end subroutine start_bearing
+
   !> Builds a scene's equations and finds their answer at an operating point, on smaller meshes first. Where the answer of one
   !> with few rows does not lead to the next, one with half the rows is put in between. A bearing that there is already is built
   !> anew, and what was spent on it counts.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+  subroutine start_cold(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(bearing_plan_type), intent(in) :: plan          !! its meshes
     type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
@@ -117,7 +139,7 @@ contains
     call count_spent(newton, spent + spent_before)
     report = mesh(1)%report
     if (report%ending%kind == ending_lost .and. bearing%floats) call report%ending%add_words(lost_words(report, target), '')
-  end subroutine start_bearing
+  end subroutine start_cold
 
   !> Frees a smaller mesh's equations; what they have cost counts.
   subroutine drop_mesh(mesh, spent)
@@ -340,7 +362,7 @@ contains
     cold%operation%leading_edge_lift_edge = [real(wp) ::]
     heat = heat_of(scene)
     cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
-    call start_bearing(cold, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
+    call start_cold(cold, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
     if (allocated(error)) return
     if (.not. report%converged()) return
     call log%stage('heat')

@@ -72,7 +72,7 @@ contains
     allocate (list(0))
     if (scene%solver%stability) then
       if (bearing%heat%present) then
-        call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+        call freeze_heat(bearing, frozen)
         call find_stability(frozen, stability)
         call free_equations(frozen)
       else

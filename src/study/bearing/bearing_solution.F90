@@ -19,7 +19,7 @@ module gfb_bearing_solution
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
-  use gfb_cold_start, only: start_bearing, start_heated, start_partitioned
+  use gfb_cold_start, only: start_bearing, start_partitioned
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
   use gfb_bearing_restart, only: save_bearing, restore_bearing
@@ -238,13 +238,7 @@ contains
     type(path_report_type), intent(out) :: report !! of the search
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    if (scene%thermal%present) then
-      call start_heated(scene, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, self%newton, report, &
-                        error)
-    else
-      call start_bearing(scene, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, self%newton, report, &
-                         error)
-    end if
+    call start_bearing(scene, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, self%newton, report, error)
   end subroutine search
 
   !> What follows a search from nothing is not bounded; one that gave up says so.

@@ -25,7 +25,7 @@ module gfb_branches_study
   use gfb_answer_judgement, only: judge_answer
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_cold_start, only: start_bearing, start_heated
+  use gfb_cold_start, only: start_bearing
   use gfb_start_problem, only: start_problem_type
   use gfb_start_list, only: soft_starts_of, start_name, try_start
   use gfb_bearing_plan, only: plan_bearing
@@ -213,13 +213,8 @@ contains
       tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, solver%maximum_iterations)
       tolerances%bound => self%bound
       call self%bound%begin(solver%maximum_factorizations)
-      if (scene%thermal%present) then
-        call start_heated(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
-                          self%bearing, self%newton, report, error)
-      else
-        call start_bearing(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
-                           self%bearing, self%newton, report, error)
-      end if
+      call start_bearing(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
+                         self%bearing, self%newton, report, error)
       call self%bound%lift()
     end associate
     if (allocated(error)) return

@@ -59,7 +59,7 @@ contains
 
     if (.not. scene%dynamics%present) return
     if (bearing%heat%present) then
-      call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+      call freeze_heat(bearing, frozen)
       call find_dynamics(scene, log, frozen, newton, record, found)
       call free_equations(frozen)
       return
@@ -201,7 +201,7 @@ contains
     type(bearing_system_type) :: frozen
 
     if (bearing%heat%present) then
-      call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+      call freeze_heat(bearing, frozen)
       call find_instability(scene, frozen, newton, excess, problem)
       call free_equations(frozen)
       return
@@ -248,7 +248,7 @@ contains
     type(bearing_system_type) :: frozen
 
     if (bearing%heat%present) then
-      call freeze_heat(bearing, scene%model%foil /= foil_shell, frozen)
+      call freeze_heat(bearing, frozen)
       call find_whirl(scene, frozen, newton, whirl, problem)
       call free_equations(frozen)
       return

@@ -8,7 +8,6 @@ module gfb_motion_study
   use gfb_scene, only: scene_type
   use gfb_bearing_system, only: bearing_system_type, free_equations
   use gfb_heat_switch, only: freeze_heat
-  use gfb_model_case, only: foil_shell
   use gfb_bearing_solution, only: bearing_solution_type
   use gfb_bearing_builder, only: build_like
   use gfb_newton, only: newton_type, renew_newton, forget_factors
@@ -105,7 +104,7 @@ contains
     associate (bearing => solution%bearing, newton => solution%newton)
       if (.not. bearing%heat%present) return
       call forget_factors(newton)
-      call freeze_heat(bearing, solution%scene%model%foil /= foil_shell, frozen)
+      call freeze_heat(bearing, frozen)
       call free_equations(bearing)
       bearing = frozen
       call renew_newton(newton, bearing, 'bearing_')
