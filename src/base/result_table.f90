@@ -18,6 +18,7 @@ module gfb_result_table
     film_and_contact = 'film and solid contact', &
     film_and_contact_brake = 'film and solid contact brake', &
     all_modes_found = 'all modes asked for were found', &
+    of_pads = 'of the pads against the runner', of_foil = 'largest deflection of the foil', &
     all_members = 'all members have an answer', of_this_step = 'of this step', &
     seed_and_reason = 'seed of the member, and why it has no answer', &
     of_all_steps = 'of all load steps', of_shifted_stiffness = 'of the shifted stiffness', &
@@ -71,7 +72,8 @@ module gfb_result_table
       'the `parameter` of `&sweep`, where it is none of the names above'), &
     result_type('load_angle', 'deg', number, sweep, 'what the sweep changes', joins=.true.), &
     result_type('speed_rpm', 'rpm', number, sweep, 'what the sweep changes', joins=.true.), &
-    result_type('tilt_<a>', 'rad', number, sweep, 'what the sweep changes', joins=.true.), &
+    result_type('tilt_<a>', 'rad', number, bearing + sweep, '{what the sweep changes}', &
+      'what the sweep changes; of a thrust bearing the tilt of its pads against the runner'), &
     result_type('key_value', own_unit, number, sweep, &
       'value of {the keys that the sweep changes}', &
       'where the `parameter` of `&sweep` is keys: their value, in their unit'), &
@@ -139,6 +141,27 @@ module gfb_result_table
     result_type('trailing_edge_lift_edge', 'm', number, bearing, &
       'displacement of the top foil''s edge towards the shaft, at the ends of the bearing', &
       compared=.true., joins=.true.), &
+    result_type('axial_gap', 'm', number, bearing + sweep, &
+      'from the land of the pads to the runner, on the axis, foils at rest', &
+      'of a thrust bearing: from the land of its pads to its runner, on the axis, foils at rest', &
+      asked=.true., compared=.true.), &
+    result_type('axial_force', 'N', number, bearing, '{film} force that lifts the runner', &
+      'of a thrust bearing: force that lifts the runner; in equilibrium equal to `axial_load`', &
+      asked=.true.), &
+    result_type('axial_force_<n>', 'N', number, bearing, 'share of pad n in axial_force'), &
+    result_type('axial_load', 'N', number, sweep, 'what the sweep changes'), &
+    result_type('mean_pressure', 'Pa', number, bearing, 'axial_force over the area of the pads', &
+      asked=.true.), &
+    result_type('minimum_gap_radius', 'm', number, bearing, 'where the film is thinnest', &
+      'of a thrust bearing: where the film is thinnest', nodal=.true.), &
+    result_type('minimum_gap_angle', 'rad', number, bearing, 'where the film is thinnest', &
+      joins=.true., nodal=.true.), &
+    result_type('centre_radius', 'm', number, bearing, 'centre of the pressure on pad 1', &
+      'of a thrust bearing: centre of the pressure on pad 1, its angle from the leading edge', &
+      asked=.true.), &
+    result_type('centre_angle', 'rad', number, bearing, &
+      'centre of the pressure on pad 1, from its leading edge', joins=.true., asked=.true.), &
+    result_type('pads_solved', '1', total, bearing, 'others are the same, turned'), &
     result_type('lifted_length', '1', number, bearing, &
       'crest length without contact over all of it', &
       'foils of shells or beams: crest length without contact, over all of it', compared=.true.), &
@@ -284,6 +307,18 @@ module gfb_result_table
     result_type('damping_<a><b>', 'N s/m', number, bearing, &
       'imaginary part of K + i omega C over omega at the first frequency: force <a> over '// &
       'velocity <b>', asked=.true., joins=.true.), &
+    result_type('stiffness_zz', 'N/m', number, bearing, &
+      'real part of K + i omega C at the first frequency: axial force over displacement', &
+      'of a thrust bearing: the same along the axis, and of tilts', asked=.true.), &
+    result_type('damping_zz', 'N s/m', number, bearing, &
+      'imaginary part of K + i omega C over omega at the first frequency, along the axis', &
+      asked=.true., joins=.true.), &
+    result_type('stiffness_phi<a>phi<b>', 'N m/rad', number, bearing, &
+      'real part of K + i omega C at the first frequency: torque <a> over rotation <b>', &
+      asked=.true., joins=.true.), &
+    result_type('damping_phi<a>phi<b>', 'N m s/rad', number, bearing, &
+      'imaginary part of K + i omega C over omega: torque <a> over angular velocity <b>', &
+      asked=.true., joins=.true.), &
     result_type('coefficients', '1', number, bearing, &
       'stiffness and damping at all frequencies, each entry over the largest of its block', &
       'stiffness and damping at all frequencies, each entry over the largest of its 2 x 2 '// &
@@ -355,7 +390,7 @@ module gfb_result_table
     result_type('crest_deflection_<n>', 'm', number, strip + load_step, &
       'mean deflection of a crest line towards the sleeve', &
       'mean over crest line n, towards the sleeve; bump 1 at the smallest x'), &
-    result_type('maximum_deflection', 'm', number, strip, '{largest crest deflection}', &
+    result_type('maximum_deflection', 'm', number, bearing + strip, '{largest crest deflection}', &
       'at the full load: largest crest deflection, or travel of the plate; force on all '// &
       'crests; their ratio', asked=.true.), &
     result_type('maximum_force', 'N', number, strip, 'force on all crests', asked=.true., &

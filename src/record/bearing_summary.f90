@@ -1,10 +1,11 @@
 !> A bearing's answer as results, and how the log shows it.
 module gfb_bearing_summary
   use gfb_kinds, only: wp
+  use gfb_film_surface, only: axial => axial_coordinate
   use gfb_units, only: degrees
   use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, place_of
   use gfb_result_names, only: add_result
-  use gfb_result_table, only: film_and_contact, film_and_contact_brake
+  use gfb_result_table, only: film_and_contact, film_and_contact_brake, of_pads, of_foil
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
@@ -51,9 +52,13 @@ contains
 
     call add_result(list, 'analysis', analysis)
     call add_result(list, 'converged', converged)
-    call add_result(list, 'eccentricity_x', answer%eccentricity(1))
-    call add_result(list, 'eccentricity_y', answer%eccentricity(2))
-    if (norm2(answer%eccentricity) > no_direction*clearance .and. &
+    if (answer%ring%present) then
+      call add_ring(answer, list)
+      return
+    end if
+    call add_result(list, 'eccentricity_x', answer%place(1))
+    call add_result(list, 'eccentricity_y', answer%place(2))
+    if (norm2(answer%place(:2)) > no_direction*clearance .and. &
         norm2(answer%force(1:2)) > no_direction*force_scale) then
       call add_result(list, 'attitude_angle', attitude_angle(answer)*degrees)
     end if
@@ -81,6 +86,44 @@ contains
       call add_result(list, 'maximum_solid_contact_pressure', answer%maximum_solid_pressure)
     end if
   end function answer_quantities
+
+  !> Adds a thrust bearing's answer.
+  subroutine add_ring(answer, list)
+    type(bearing_answer_type), intent(in) :: answer
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    integer :: i
+
+    associate (ring => answer%ring)
+      call add_result(list, 'axial_gap', -answer%place(axial))
+      call add_result(list, 'tilt_x', answer%place(4), of_pads)
+      call add_result(list, 'tilt_y', answer%place(5), of_pads)
+      call add_result(list, 'axial_force', answer%force(axial))
+      call add_result(list, 'mean_pressure', answer%force(axial)/ring%area)
+      call add_result(list, 'torque_x', answer%force(4))
+      call add_result(list, 'torque_y', answer%force(5))
+      call add_result(list, 'friction_torque', answer%friction_torque)
+      call add_result(list, 'power_loss', answer%power_loss)
+      call add_result(list, 'minimum_gap', answer%minimum_gap)
+      call add_result(list, 'minimum_gap_radius', ring%thinnest(1))
+      call add_result(list, 'minimum_gap_angle', ring%thinnest(2))
+      call add_result(list, 'maximum_pressure', answer%maximum_pressure)
+      call add_result(list, 'minimum_pressure', answer%minimum_pressure)
+      call add_result(list, 'centre_radius', ring%centre(1))
+      call add_result(list, 'centre_angle', ring%centre(2))
+      call add_result(list, 'maximum_deflection', answer%maximum_deflection, of_foil)
+      call add_result(list, 'maximum_peclet', answer%maximum_peclet)
+      call add_result(list, 'pads_solved', ring%pads_solved)
+    end associate
+    do i = 1, merge(answer%ring%pads, 0, answer%ring%pads > 1)
+      if (allocated(answer%pad_gap)) then
+        call add_result(list, 'axial_force_'//text(i), answer%pad_force(axial, i))
+        call add_result(list, 'minimum_gap_'//text(i), answer%pad_gap(i))
+      else ! equal ones
+        call add_result(list, 'axial_force_'//text(i), answer%force(axial)/answer%ring%pads)
+        call add_result(list, 'minimum_gap_'//text(i), answer%minimum_gap)
+      end if
+    end do
+  end subroutine add_ring
 
   !> Adds what presses on sleeve and shaft.
   subroutine add_loads(answer, list)
@@ -187,7 +230,7 @@ contains
   pure real(wp) function attitude_angle(answer) result(angle)
     type(bearing_answer_type), intent(in) :: answer !! with eccentricity and force
 
-    associate (e => answer%eccentricity, f => answer%force)
+    associate (e => answer%place(:2), f => answer%force)
       angle = atan2(-f(1)*e(2) + f(2)*e(1), -f(1)*e(1) - f(2)*e(2))
     end associate
   end function attitude_angle
@@ -210,7 +253,6 @@ contains
     type(cost_type), intent(in) :: cost !! of the whole run
     integer, intent(in) :: ranks !! number of MPI ranks
     character(len=*), intent(in) :: blas  !! library in use
-    character(len=4) :: who
 
     if (converged) then
       call log%heading('answer')
@@ -219,16 +261,67 @@ contains
     end if
     if (place /= '') call log%line('point            '//place)
     call show_asked(log, summary)
-    call log%line('eccentricity     '//pair(answer%eccentricity, 'um', 1.0e6_wp)// &
-                  '   over C '//text(answer%eccentricity(1)/clearance, 5)//', '// &
-                  text(answer%eccentricity(2)/clearance, 5))
+    if (answer%ring%present) then
+      call show_ring(log, answer)
+    else
+      call show_journal(log, answer, clearance)
+    end if
+    call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
+                  '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
+    if (answer%heat%present) call show_heat(log, answer%heat)
+    call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
+    call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
+                  text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
+                  ' factorizations, '//text(cost%wall_time, 3)//' s, '// &
+                  text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '// &
+                  text(ranks)//' rank(s), BLAS '//blas)
+  end subroutine show_closing_block
+
+  !> How a thrust bearing bears its runner.
+  subroutine show_ring(log, answer)
+    type(run_log_type), intent(in) :: log
+    type(bearing_answer_type), intent(in) :: answer
+
+    associate (ring => answer%ring)
+      call log%line('axial gap        '//engineering_text(-answer%place(axial), 'um', 1.0e6_wp)// &
+                    '   tilt '//pair(answer%place(4:5), 'mrad', 1.0e3_wp))
+      call log%line('axial force      '//engineering_text(answer%force(axial), 'N', 1.0_wp)// &
+                    '   mean pressure '//engineering_text(answer%force(axial)/ring%area, 'kPa', &
+                                                          1.0e-3_wp)//' over ambient')
+      call log%line('torque on shaft  '//pair(answer%force(4:5), 'N m', 1.0_wp))
+      call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
+                    '   at radius '//engineering_text(ring%thinnest(1), 'mm', 1.0e3_wp)//', '// &
+                    engineering_text(ring%thinnest(2), 'deg', degrees))
+      call log%line('pressure         '// &
+                    engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
+                    engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp)// &
+                    '   centre on pad 1 at radius '//engineering_text(ring%centre(1), 'mm', &
+                    1.0e3_wp)//', '//engineering_text(ring%centre(2), 'deg', degrees)// &
+                    ' from its leading edge')
+      if (answer%maximum_deflection > 0.0_wp) then
+        call log%line('deflection       '//engineering_text(answer%maximum_deflection, 'um', &
+                                                            1.0e6_wp)//' at most')
+      end if
+    end associate
+  end subroutine show_ring
+
+  !> How a journal bearing bears its shaft.
+  subroutine show_journal(log, answer, clearance)
+    type(run_log_type), intent(in) :: log
+    type(bearing_answer_type), intent(in) :: answer
+    real(wp), intent(in) :: clearance !! C [m]
+    character(len=4) :: who
+
+    call log%line('eccentricity     '//pair(answer%place(:2), 'um', 1.0e6_wp)// &
+                  '   over C '//text(answer%place(1)/clearance, 5)//', '// &
+                  text(answer%place(2)/clearance, 5))
     who = merge('full', 'film', answer%has_solid_contact)
     call log%line('attitude angle   '// &
                   engineering_text(attitude_angle(answer), 'deg', degrees)//'   from '//who// &
                   ' force (in equilibrium the load), at '// &
                   text(direction_of(answer%force(1:2)), 4)// &
                   ' deg, to the thinnest film, -e, at '// &
-                  text(direction_of(-answer%eccentricity), 4)//' deg, positive with the rotation')
+                  text(direction_of(-answer%place(:2)), 4)//' deg, positive with the rotation')
     call log%line(who//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
     call log%line(who//' torque      '//pair(answer%force(4:5), 'N m', 1.0_wp)// &
                   '   without suction '// &
@@ -255,16 +348,7 @@ contains
                     ' of the force, friction torque '// &
                     engineering_text(answer%solid_torque, 'N m', 1.0_wp))
     end if
-    call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
-                  '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
-    if (answer%heat%present) call show_heat(log, answer%heat)
-    call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
-    call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
-                  text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
-                  ' factorizations, '//text(cost%wall_time, 3)//' s, '// &
-                  text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '// &
-                  text(ranks)//' rank(s), BLAS '//blas)
-  end subroutine show_closing_block
+  end subroutine show_journal
 
   !> Where the heat goes, and how hot all is.
   subroutine show_heat(log, heat)
@@ -322,7 +406,7 @@ contains
 
     do i = 1, size(answer%pad_gap)
       call log%line('pad '//text(i)//'            '// &
-                    'force '//pair(answer%pad_force(:, i), 'N', 1.0_wp)//', minimum gap '// &
+                    'force '//pair(answer%pad_force(:2, i), 'N', 1.0_wp)//', minimum gap '// &
                     engineering_text(answer%pad_gap(i), 'um', 1.0e6_wp))
     end do
   end subroutine show_pads

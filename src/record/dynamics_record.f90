@@ -2,18 +2,18 @@
 !> arrays and as a table.
 !>
 !> Z = K + i w C, with the circular frequency w, is the force of the film that brings the shaft
-!> back over its displacement; rows and columns are those of e_x, e_y, phi_x, phi_y.
+!> back over its displacement; rows and columns are those of e_x, e_y, phi_x, phi_y, or of e_z,
+!> phi_x, phi_y of a runner.
 module gfb_dynamics_record
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_text, only: exact_text
-  use gfb_film_surface, only: journal_motions
   use gfb_case_file, only: case_array_type, add_array
   implicit none (type, external)
   private
   public :: stiffness_of, damping_of, add_dynamics_arrays, dynamics_table, visit_dynamics, &
-            coefficients_of
+            coefficients_of, motion_names
 
   !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense, foil's
   !> share [1].
@@ -33,11 +33,6 @@ module gfb_dynamics_record
     '1: a circle with the speed, -1: a circle against it, 0: to and fro', &
     'share of the foil''s strain and kinetic energy, against rotor and film']
 
-  character(len=*), parameter :: names(journal_motions) = [character(len=4) :: 'x', 'y', &
-                                                             'phix', 'phiy']
-  integer, parameter :: entries = journal_motions**2 !! of a matrix
-  character(len=*), parameter :: order = &
-    'frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
   !> Stiffness and damping.
   character(len=*), parameter :: kinds(2) = [character(len=9) :: 'stiffness', 'damping']
   character(len=*), parameter :: units(2) = [character(len=36) :: &
@@ -65,11 +60,35 @@ module gfb_dynamics_record
 
 contains
 
+  !> Names of motions in matrices: of a journal's four, or of a runner's three.
+  pure function motion_names(motions) result(names)
+    integer, intent(in) :: motions !! 4 or 3
+    character(len=4), allocatable :: names(:)
+
+    names = [character(len=4) :: 'x', 'y', 'phix', 'phiy']
+    if (motions < size(names)) names = [character(len=4) :: 'z', 'phix', 'phiy']
+  end function motion_names
+
+  !> Motions of an answer's matrices.
+  pure integer function motions_of(point) result(motions)
+    type(dynamics_point_type), intent(in) :: point
+    motions = size(point%coefficient, 1)
+  end function motions_of
+
+  !> The order of arrays, for their description.
+  pure function order_of(motions) result(words)
+    integer, intent(in) :: motions !! 4 or 3
+    character(len=:), allocatable :: words
+
+    words = 'frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
+    if (motions == 3) words = 'frequency, row, column] in the order e_z, phi_x, phi_y: '
+  end function order_of
+
   !> K at one of the frequencies.
   pure function stiffness_of(point, i) result(stiffness)
     type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
-    real(wp) :: stiffness(journal_motions, journal_motions)
+    real(wp), allocatable :: stiffness(:, :)
     stiffness = real(point%coefficient(:, :, i), wp)
   end function stiffness_of
 
@@ -77,7 +96,7 @@ contains
   pure function damping_of(point, i) result(damping)
     type(dynamics_point_type), intent(in) :: point !! an answer
     integer, intent(in) :: i !! number of the frequency
-    real(wp) :: damping(journal_motions, journal_motions)
+    real(wp), allocatable :: damping(:, :)
     damping = aimag(point%coefficient(:, :, i))/point%frequency(i)
   end function damping_of
 
@@ -97,18 +116,20 @@ contains
     type(dynamics_point_type), intent(in) :: point
     integer, intent(in) :: part !! 1 or 2
     integer, intent(in) :: i !! number of the frequency
-    real(wp) :: error(journal_motions, journal_motions)
+    real(wp), allocatable :: error(:, :)
     integer :: first
 
-    first = ((part - 1)*size(point%frequency) + i - 1)*entries
-    error = reshape(point%error(first + 1:first + entries), shape(error))
+    associate (motions => motions_of(point))
+      first = ((part - 1)*size(point%frequency) + i - 1)*motions**2
+      error = reshape(point%error(first + 1:first + motions**2), [motions, motions])
+    end associate
   end function error_of
 
   !> The entries of a matrix, row by row.
   pure function by_rows(matrix) result(list)
-    real(wp), intent(in) :: matrix(journal_motions, journal_motions)
-    real(wp) :: list(entries)
-    list = reshape(transpose(matrix), [entries])
+    real(wp), intent(in) :: matrix(:, :)
+    real(wp) :: list(size(matrix))
+    list = reshape(transpose(matrix), [size(matrix)])
   end function by_rows
 
   !> Adds the arrays of the result file; none without an answer. Those of a sweep have its points
@@ -120,11 +141,13 @@ contains
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the file
     real(wp), allocatable, dimension(:, :) :: frequency, stiffness, damping
     character(len=:), allocatable :: axes
-    integer :: i, k, n
+    integer :: i, k, n, motions, entries
 
     if (.not. allocated(record%point)) return
     if (min(points, size(record%point)) == 0) return
     n = size(record%point(1)%frequency)
+    motions = motions_of(record%point(1))
+    entries = motions**2
     allocate (frequency(n, points), stiffness(n*entries, points))
     allocate (damping, mold=stiffness)
     do k = 1, points
@@ -134,9 +157,9 @@ contains
         damping(:, k) = [(by_rows(damping_of(point, i)), i=1, n)]
       end associate
     end do
-    axes = ', [point, '//order
+    axes = ', [point, '//order_of(motions)
     if (.not. sweeps) then
-      axes = ', ['//order
+      axes = ', ['//order_of(motions)
       frequency = transpose(frequency)
       stiffness = reshape(stiffness, [entries, n])
       damping = reshape(damping, [entries, n])
@@ -144,12 +167,13 @@ contains
     call add_array(arrays, '/dynamics/frequency', 'rad/s', 'circular frequency of the vibration', &
                    frequency, sweeps)
     call add_array(arrays, '/dynamics/stiffness', trim(units(1)), &
-                   'real part of K + i omega C'//axes//'film force (x, y) or torque that '// &
-                   'brings the shaft back, over its displacement or rotation', stiffness, sweeps, &
-                   journal_motions)
+                   'real part of K + i omega C'//axes//'film force '// &
+                   trim(merge('(x, y) ', 'along z', motions == 4))// &
+                   ' or torque that brings the shaft back, over its displacement or rotation', &
+                   stiffness, sweeps, motions)
     call add_array(arrays, '/dynamics/damping', trim(units(2)), &
                    'imaginary part of K + i omega C over omega'//axes// &
-                   'the same over velocity or angular velocity', damping, sweeps, journal_motions)
+                   'the same over velocity or angular velocity', damping, sweeps, motions)
     if (allocated(record%point(1)%error)) call add_error_arrays(record%point(1), arrays)
     call add_mode_arrays(record, sweeps, points, arrays)
     if (allocated(record%point(1)%amplitude)) call add_amplitude_arrays(record%point(1), arrays)
@@ -162,12 +186,13 @@ contains
     integer :: part, i
 
     do part = 1, size(kinds)
-      associate (n => size(point%frequency))
+      associate (n => size(point%frequency), motions => motions_of(point))
         call add_array(arrays, '/dynamics/'//trim(kinds(part))//'_error', trim(units(part)), &
-                       'error of every entry, estimated from nested meshes, absolute, ['//order// &
+                       'error of every entry, estimated from nested meshes, absolute, ['// &
+                       order_of(motions)// &
                        'of '//trim(kinds(part)), &
-                       reshape([(by_rows(error_of(point, part, i)), i=1, n)], [entries, n]), &
-                       order=journal_motions)
+                       reshape([(by_rows(error_of(point, part, i)), i=1, n)], [motions**2, n]), &
+                       order=motions)
       end associate
     end do
   end subroutine add_error_arrays
@@ -183,8 +208,9 @@ contains
                                                   'e_y, phi_x, phi_y, NaN in the columns of phi'
     integer :: i, k
 
-    associate (amplitudes => size(point%amplitude), n => size(point%frequency))
-      allocate (stiffness(entries*amplitudes, n))
+    associate (amplitudes => size(point%amplitude), n => size(point%frequency), &
+               motions => motions_of(point))
+      allocate (stiffness(motions**2*amplitudes, n))
       allocate (damping, mold=stiffness)
       do i = 1, n
         associate (z => point%at_amplitude(:, :, :, i))
@@ -196,9 +222,9 @@ contains
                      'amplitude of the shaft, along x or along y', &
                      reshape(point%amplitude, [1, amplitudes]))
       call add_array(arrays, '/dynamics/stiffness_at_amplitude', 'N/m; N m/m', &
-                     'as stiffness'//at_amplitude, stiffness, .true., journal_motions)
+                     'as stiffness'//at_amplitude, stiffness, .true., motions)
       call add_array(arrays, '/dynamics/damping_at_amplitude', 'N s/m; N m s/m', &
-                     'as damping'//at_amplitude, damping, .true., journal_motions)
+                     'as damping'//at_amplitude, damping, .true., motions)
       call add_array(arrays, '/dynamics/friction_loss_at_amplitude', 'J', 'energy that '// &
                      'contacts lose in a cycle; a row a frequency: shaft along x, y with the '// &
                      'first amplitude, x, y with the second, ...', &
@@ -241,14 +267,16 @@ contains
     character(len=*), intent(in) :: sweep_name !! what the sweep changes; empty without one
     real(wp), intent(in) :: values(:) !! of the sweep, as many as answers, in its unit
     character(len=:), allocatable :: words
-    integer :: i, k
+    integer :: i, k, motions
 
+    motions = 4
+    if (size(record%point) > 0) motions = motions_of(record%point(1))
     words = 'frequency'
     if (sweep_name /= '') words = sweep_name//',frequency'
-    words = words//heads('k', '')//heads('c', '')
+    words = words//heads(motions, 'k', '')//heads(motions, 'c', '')
     if (size(record%point) > 0) then
       if (allocated(record%point(1)%error)) then
-        words = words//heads('k', '_error')//heads('c', '_error')
+        words = words//heads(motions, 'k', '_error')//heads(motions, 'c', '_error')
       end if
     end if
     words = words//new_line('a')
@@ -268,14 +296,17 @@ contains
   end function dynamics_table
 
   !> Names of a matrix' columns, each behind a comma.
-  pure function heads(letter, ending) result(words)
+  pure function heads(motions, letter, ending) result(words)
+    integer, intent(in) :: motions !! 4 or 3
     character(len=*), intent(in) :: letter, ending !! of each name
     character(len=:), allocatable :: words
+    character(len=4) :: names(motions)
     integer :: row, column
 
+    names = motion_names(motions)
     words = ''
-    do row = 1, journal_motions
-      do column = 1, journal_motions
+    do row = 1, motions
+      do column = 1, motions
         words = words//','//letter//trim(names(row))//trim(names(column))//ending
       end do
     end do
@@ -285,12 +316,12 @@ contains
   pure function matrix_text(matrix) result(words)
     real(wp), intent(in) :: matrix(:, :)
     character(len=:), allocatable :: words
-    real(wp) :: list(entries)
+    real(wp) :: list(size(matrix))
     integer :: i
 
     list = by_rows(matrix)
     words = ''
-    do i = 1, entries
+    do i = 1, size(list)
       words = words//','//exact_text(list(i))
     end do
   end function matrix_text
@@ -320,8 +351,10 @@ contains
     type(archive_type), intent(inout) :: archive
     type(dynamics_point_type), intent(inout) :: point
     real(wp), allocatable :: parts(:, :)
+    integer :: entries, motions
 
     if (archive%saves) then
+      entries = motions_of(point)**2
       allocate (parts(2*entries, size(point%frequency)))
       parts(:entries, :) = reshape(real(point%coefficient, wp), [entries, size(point%frequency)])
       parts(entries + 1:, :) = reshape(aimag(point%coefficient), [entries, size(point%frequency)])
@@ -330,7 +363,9 @@ contains
     call archive%visit_sized('coefficient', parts)
     call archive%visit_sized('mode', point%mode)
     if (archive%saves .or. archive%failed) return
+    entries = size(parts, 1)/2
+    motions = nint(sqrt(real(entries, wp)))
     point%coefficient = reshape(cmplx(parts(:entries, :), parts(entries + 1:, :), wp), &
-                                [journal_motions, journal_motions, size(parts, 2)])
+                                [motions, motions, size(parts, 2)])
   end subroutine visit_point
 end module gfb_dynamics_record

@@ -3,13 +3,16 @@
 module gfb_plausible_values
   use gfb_kinds, only: wp
   use gfb_units, only: degree, rpm
+  use gfb_bearing_case, only: pad_angle
+  use gfb_operation_case, only: angular_speed
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_namelist_file, only: find_elements
   use gfb_namelist_values, only: read_real, value_string
   use gfb_motion_cases, only: follow_mass, follow_speed, follow_unbalance
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_keys, sweep_load, sweep_load_angle, &
-                            sweep_speed, sweep_tilt_x, sweep_tilt_y
+                            sweep_speed, sweep_tilt_x, sweep_tilt_y, sweep_axial_load, &
+                            sweep_axial_gap
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -37,9 +40,13 @@ module gfb_plausible_values
   end type unit_type
 
   type(range_type), parameter, public :: ranges(*) = [ &
-    range_type(1.0e-3_wp, 0.5_wp, 'm', 'mm,um', 'bearing%radius'), &
+    range_type(1.0e-3_wp, 0.5_wp, 'm', 'mm,um', 'bearing%radius bearing%outer_radius '// &
+               'bearing%inner_radius model%cut_radii'), &
     range_type(1.0e-3_wp, 2.0_wp, 'm', 'mm,um', 'bearing%length bump_foil%width'), &
     range_type(1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm', 'bearing%clearance'), &
+    range_type(1.0e-6_wp, 5.0e-4_wp, 'm', 'um,mm', 'ramp%height'), &
+    range_type(5.0e-7_wp, 2.0e-4_wp, 'm', 'um,mm', 'operation%axial_gap'), &
+    range_type(0.0_wp, 1.0e3_wp, 'N m', 'N mm', 'operation%moment'), &
     range_type(0.0_wp, 1.0e-3_wp, 'm', 'um,mm', &
                'bearing%assembly_interference bore%wave_amplitude bore%shim_height '// &
                'bore%profile_height bump_foil%crest_gap bump_foil%corner_gap'), &
@@ -111,7 +118,8 @@ module gfb_plausible_values
     range_type(0.0_wp, 1.0e9_wp, 'Pa', '', 'strip_load%pressure strip_load%bump_pressure'), &
     range_type(0.0_wp, 1.0e-2_wp, 'm', 'mm,um', 'strip_load%maximum_displacement'), &
     range_type(1.0e-6_wp, 1.0e6_wp, 'N', 'mN', 'strip_load%maximum_force'), &
-    range_type(1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'model%foundation_stiffness'), &
+    range_type(1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'model%foundation_stiffness '// &
+               'model%strip_foundation_stiffness'), &
     range_type(1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm', 'capacity%smallest_gap'), &
     range_type(0.0_wp, 1.0e-4_wp, 'm', 'mm,um', 'solver%touch_down_gap'), &
     range_type(0.0_wp, 1.0e-2_wp, '1', '%', 'solver%residual_tolerance solver%step_tolerance'), &
@@ -149,6 +157,9 @@ module gfb_plausible_values
 
   type(reason_type), parameter, public :: reasons(*) = [ &
     reason_type('operation%load', 'judged against what films carry'), &
+    reason_type('operation%axial_load', 'judged against what films carry'), &
+    reason_type('ramp%part', 'from 0 to 1 by its rule'), &
+    reason_type('model%foundation_exponent', 'from -20 to 20 by its rule'), &
     reason_type('sweep%values', 'those of what the sweep changes'), &
     reason_type('periodic%final_value', 'that of the parameter'), &
     reason_type('sensitivity%tolerances', 'those of the parameters'), &
@@ -181,7 +192,8 @@ module gfb_plausible_values
     unit_type('g/cm^3', 1.0e3_wp), unit_type('g/m^3', 1.0e-3_wp), &
     unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp), &
     unit_type('N s/mm^3', 1.0e9_wp), unit_type('mN', 1.0e-3_wp), unit_type('mN s', 1.0e-3_wp), &
-    unit_type('N mm s', 1.0e-3_wp), unit_type('kg mm', 1.0e-3_wp), unit_type('g mm', 1.0e-6_wp), &
+    unit_type('N mm', 1.0e-3_wp), unit_type('N mm s', 1.0e-3_wp), &
+    unit_type('kg mm', 1.0e-3_wp), unit_type('g mm', 1.0e-6_wp), &
     unit_type('kg mm^2', 1.0e-6_wp), unit_type('g mm^2', 1.0e-9_wp)]
 
   !> No gas film carries a larger load over p_a D L [1].
@@ -254,11 +266,13 @@ contains
       range = ranges(row_of('operation%speed_rpm'))
     case (sweep_tilt_x, sweep_tilt_y)
       range = ranges(row_of('operation%tilt'))
+    case (sweep_axial_gap)
+      range = ranges(row_of('operation%axial_gap'))
     case default
       range = ranges(row_of('operation%eccentricity'))
     end select
     range%low = 0.0_wp
-    if (all(swept /= [0, sweep_load, sweep_load_angle, sweep_keys])) then
+    if (all(swept /= [0, sweep_load, sweep_load_angle, sweep_axial_load, sweep_keys])) then
       call check_values(keys, 'sweep', 'values', range)
     end if
     select case (followed)
@@ -282,12 +296,42 @@ contains
 
     associate (bearing => scene%bearing)
       carried = scene%gas%ambient_pressure*2.0_wp*bearing%radius*bearing%length
+      if (bearing%is_thrust()) then
+        carried = scene%gas%ambient_pressure*0.5_wp*real(bearing%pads, wp)*pad_angle(bearing)* &
+                  (bearing%radius**2 - bearing%inner_radius**2)
+        if (carried > 0.0_wp .and. scene%operation%axial_load > most_carried*carried) then
+          call keys%warn('operation', 'axial_load', 'is '//text(scene%operation%axial_load/ &
+                         carried, 3)//' p_a times the area of the pads; gas films carry some '// &
+                         'of that at most')
+        end if
+        call warn_of_shape(keys, scene)
+        return
+      end if
     end associate
     loads = norm2(scene%operation%load)
     if (.not. carried > 0.0_wp .or. loads <= most_carried*carried) return
     call keys%warn('operation', 'load', 'is '//text(loads/carried, 3)//' p_a D L; gas films '// &
                    'carry some p_a D L at most')
   end subroutine check_load
+
+  !> Warns of a ring that is hardly meant, and of a runner that would burst.
+  subroutine warn_of_shape(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp), parameter :: usual_ratios(2) = [0.2_wp, 0.95_wp] !! of the radii [1]
+    real(wp), parameter :: fastest = 700.0_wp !! at the outer radius [m/s]
+    real(wp) :: ratio, tip
+
+    if (.not. scene%bearing%length > 0.0_wp) return
+    ratio = scene%bearing%inner_radius/scene%bearing%radius
+    if (ratio < usual_ratios(1) .or. ratio > usual_ratios(2)) then
+      call keys%warn('bearing', 'inner_radius', 'is '//text(ratio, 3)//' of outer_radius; '// &
+                     'usual is 0.2 to 0.95')
+    end if
+    tip = angular_speed(scene%operation%speed_rpm)*scene%bearing%radius
+    if (tip > fastest) call keys%warn('operation', 'speed_rpm', 'makes the runner''s edge move '// &
+                                      'at '//text(tip, 3)//' m/s; usual is at most 700')
+  end subroutine warn_of_shape
 
   !> Whether a value lies where values of its key lie.
   elemental logical function is_usual(range, number) result(usual)

@@ -6,7 +6,7 @@ module gfb_scene
                              read_modes_case, part_top_foil, read_output_case, read_sample_case, &
                              read_sensitivity_case
   use gfb_bearing_case, only: bearing_case_type, bore_case_type, read_bearing_case, &
-                              read_pads_case, read_bore_case
+                              read_pads_case, read_bore_case, read_ramp_case, needs_journal
   use gfb_foil_cases, only: bump_foil_case_type, read_bump_foil_case, top_foil_case_type, &
                             read_top_foil_case
   use gfb_contact_case, only: contact_case_type, read_contact_case, shaft_contact_case_type, &
@@ -19,7 +19,7 @@ module gfb_scene
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
   use gfb_model_case, only: model_case_type, meshes_foils, read_model_case
-  use gfb_operation_case, only: operation_case_type, read_operation_case
+  use gfb_operation_case, only: operation_case_type, read_operation_case, size_of_gap
   use gfb_scene_case, only: scene_case_type, needs_type, analysis_strip, read_scene_case, &
                             is_bearing, misplaced_group, analysis_modes, analysis_misalignment
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
@@ -79,34 +79,47 @@ contains
 
     call read_scene_case(keys, scene%general)
     call read_modes_case(keys, scene%modes, scene%general%analysis)
-    call read_model_case(keys, scene%model, scene%general%analysis)
-    state = analysis_of_state(scene%general%analysis, keys%holds('operation', 'load'), &
-                              keys%holds('operation', 'eccentricity'))
-    needs = needs_of(scene%general%analysis, scene%modes%part, scene%model%foil)
+    state = analysis_of_state(scene%general%analysis, keys%holds('operation', 'load') .or. &
+                              keys%holds('operation', 'axial_load'), &
+                              keys%holds('operation', 'eccentricity') .or. &
+                              keys%holds('operation', 'axial_gap'))
+    needs = needs_of(scene%general%analysis, scene%modes%part, foil=0)
     associate (analysis => scene%general%analysis, part => scene%modes%part)
       misplaced = misplaced_group(analysis, is_bearing(analysis))
       ! Foils alone have a pad only where the top foil vibrates.
       if (analysis == analysis_modes) misplaced = unless(any(part == [0, part_top_foil]), &
         "needs part = 'top_foil' in &modes: no other part has a pad")
       call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, misplaced)
+      call read_model_case(keys, scene%model, scene%bearing%is_thrust(), analysis)
+      needs = needs_of(analysis, part, scene%model%foil)
       misplaced = misplaced_group(analysis, is_bearing(analysis))
       call read_pads_case(keys, scene%bearing, misplaced)
+      call read_ramp_case(keys, scene%bearing, misplaced)
+      if (misplaced == '') misplaced = unless(.not. scene%bearing%is_thrust(), needs_journal)
       call read_bore_case(keys, scene%bore, scene%bearing, misplaced)
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
-      call read_operation_case(keys, scene%operation, state, scene%shaft_contact%present)
+      call read_operation_case(keys, scene%operation, scene%bearing, state, &
+                               scene%shaft_contact%present)
+      if (scene%bearing%is_thrust()) then
+        scene%bearing%clearance = size_of_gap(scene%bearing, scene%operation, &
+                                              scene%gas%viscosity, scene%gas%ambient_pressure)
+      end if
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
-      call read_rotor_case(keys, scene%rotor, analysis)
+      call read_rotor_case(keys, scene%rotor, scene%bearing%is_thrust(), analysis)
       call read_transient_case(keys, scene%transient, scene%operation, analysis)
       call read_periodic_case(keys, scene%periodic, analysis)
       call read_unbalance_case(keys, scene%unbalance, analysis)
       call read_foil_damping_case(keys, scene%foil_damping, analysis)
       call read_capacity_case(keys, scene%capacity, analysis)
       scene%operation%tilt_is_sought = analysis == analysis_misalignment
+      ! A mass that whirls moves across the axis.
+      scene%dynamics%stability = scene%dynamics%stability .and. .not. scene%bearing%is_thrust()
       call read_sweep_case(keys, scene%sweep, analysis)
       call read_top_foil_case(keys, scene%top_foil, needs)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
-      call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, analysis)
+      call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, &
+                             scene%bearing%is_thrust(), analysis)
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)

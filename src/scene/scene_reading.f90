@@ -153,6 +153,8 @@ contains
     select case (group)
     case ('bearing', 'pads')
       return
+    case ('ramp')
+      if (.not. scene%bearing%ramp_part > 0.0_wp) problem = 'the file has no group &ramp'
     case ('gas')
       if (key == 'viscosity' .and. scene%gas%has_viscosity_law) then
         problem = 'a law or a table gives the viscosity'

@@ -17,15 +17,16 @@ module gfb_scene_rules
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
-  use gfb_study_cases, only: quantities_without_heat
+  use gfb_study_cases, only: quantities_without_heat, quantities_of_rings
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: join, text
+  use gfb_thrust_rules, only: check_thrust
   use gfb_thermal_case, only: thermal_case_type, wall_given, wall_conductance, wall_fin, &
                               foil_given, foil_sheet
   implicit none (type, external)
   private
-  public :: check_groups, is_symmetric, heat_mirrors
+  public :: check_groups, is_symmetric, heat_mirrors, solves_one_pad
 
   character(len=*), parameter :: heat = 'thermal' !! the group
 
@@ -36,6 +37,7 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
 
+    call check_thrust(keys, scene)
     call check_sweep(keys, scene)
     call check_shaft_contact(keys, scene)
     call check_model(keys, scene)
@@ -61,7 +63,8 @@ contains
     type(scene_type), intent(in) :: scene
 
     call keys%rule('sensitivity', 'quantity', .not. scene%thermal%present .and. &
-                   any(scene%sensitivity%quantity(quantities_without_heat + 1:)), &
+                   any(scene%sensitivity%quantity(quantities_without_heat + 1:size( &
+                   scene%sensitivity%quantity) - quantities_of_rings)), &
                    'names a result of heat, which needs &thermal')
     if (.not. (scene%thermal%present .and. is_bearing(scene%general%analysis))) return
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
@@ -193,7 +196,8 @@ contains
       if (.not. scene%shaft_contact%present .or. .not. is_bearing(analysis)) return
       call keys%rule('model', 'foundation_pressure', model%foil == foil_elastic_foundation .and. &
                      model%foundation_pressure == foundation_pressure_local, 'must be '// &
-                     "'axial_mean' with &shaft_contact: springs without unknowns of their own "// &
+                     "'axial_mean', of thrust bearings 'radial_mean', with &shaft_contact: "// &
+                     'springs without unknowns of their own '// &
                      'feel the film alone')
       call keys%rule('model', 'coupling', model%coupling == coupling_partitioned, &
                      "must be 'monolithic' with &shaft_contact")
@@ -224,7 +228,8 @@ contains
     associate (model => scene%model, solver => scene%solver, analysis => scene%general%analysis, &
                elements => scene%mesh%axial_elements)
       call keys%rule('model', 'foil', model%foil == foil_elastic_foundation .and. any(missing) &
-                     .and. .not. keys%meant('model', 'foundation_stiffness'), 'needs '// &
+                     .and. .not. (keys%meant('model', 'foundation_stiffness') .or. &
+                     model%has_strips()), 'needs '// &
                      'foundation_stiffness, or what is missing in &bump_foil: '// &
                      join(pack(needed, missing), ', '))
       half = model%half_width == half_width_yes
@@ -281,6 +286,13 @@ contains
     mirrors = mirrors .and. index(scene%sweep%keys, 'cooling_flow') == 0
   end function heat_mirrors
 
+  !> Whether one pad of a thrust bearing stands for all: they are equal, and no point is tilted.
+  pure logical function solves_one_pad(scene) result(one)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    one = scene%bearing%is_thrust() .and. .not. (scene%operation%moment_given .or. &
+      tilts(scene%operation, scene%sweep) .or. scene%bump_foil%random%deviation > 0.0_wp)
+  end function solves_one_pad
+
   !> Whether a point of the scene is tilted.
   pure logical function tilts(operation, sweep)
     type(operation_case_type), intent(in) :: operation
@@ -297,7 +309,7 @@ contains
     integer :: point
 
     associate (bearing => scene%bearing, sweep => scene%sweep)
-      if (scene%model%foil /= foil_rigid) return
+      if (scene%model%foil /= foil_rigid .or. bearing%is_thrust()) return
       if (.not. (bearing%clearance > 0.0_wp .and. bearing%length > 0.0_wp)) return
       if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x .or. &
           sweep%parameter == sweep_keys) then

@@ -2,7 +2,6 @@
 module gfb_refinement
   use gfb_kinds, only: wp
   use gfb_grid_convergence, only: convergence_type, estimate_errors, estimate_error
-  use gfb_film_surface, only: journal_motions
   use gfb_study_cases, only: accuracy_case_type, all_coefficients, asked_name
   use gfb_quantity, only: quantity_type, place_of
   use gfb_result_names, only: is_nodal, add_result
@@ -31,8 +30,9 @@ module gfb_refinement
   integer, parameter :: quarter = 4             !! the first mesh is coarser by it in each direction
   integer, parameter :: least_circumferential = 4
 
-  integer, parameter :: side = 2 !! of a block: displacements or rotations
-  integer, parameter :: blocks = journal_motions/side
+  integer, parameter :: rotations = 2 !! the last of the motions
+  !> Each way: displacements, 2 of a journal and 1 of a runner, and rotations.
+  integer, parameter :: blocks = 2
   real(wp), parameter :: vanishing = 1.0e-9_wp !! a coupling block below that of its neighbours [1]
 
   integer, parameter :: least_meshes = 3 !! that show an order
@@ -57,6 +57,7 @@ module gfb_refinement
     type(mesh_answer_type), allocatable :: answer(:)
     real(wp), allocatable :: value(:)      !! of the meshes in a row that have answers
     real(wp), allocatable :: coefficients(:, :) !! (entry, mesh) the same of stiffness, damping [SI]
+    integer :: matrices = 0 !! of stiffness and damping
   contains
     procedure :: add => sequence_add, add_coefficients => sequence_add_coefficients
     procedure :: coefficient_errors => sequence_coefficient_errors
@@ -83,29 +84,45 @@ contains
 
   !> What the meshes say of every entry; those of a block share one order.
   !>
-  !> Blocks are those of 2 x 2 of each matrix: force over displacement, force over rotation, ...
-  pure function entry_estimates(value, formal_order) result(estimate)
-    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), 4 x 4 matrices behind each other
+  !> Blocks of each matrix: force over displacement, force over rotation, ...
+  pure function entry_estimates(value, formal_order, matrices) result(estimate)
+    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), square matrices behind each other
     real(wp), intent(in) :: formal_order !! of the elements [1]
+    integer, intent(in) :: matrices !! their number
     type(convergence_type), allocatable :: estimate(:)
-    integer :: entry(side**2), i, j, k
+    integer, allocatable :: entry(:)
+    integer :: i, j, k
 
     allocate (estimate(size(value, 1)))
-    do k = 0, size(value, 1)/journal_motions**2 - 1
-      do j = 0, blocks - 1
-        do i = 0, blocks - 1
-          entry = (k*journal_motions + side*j)*journal_motions + side*i + &
-                  [1, 2, journal_motions + 1, journal_motions + 2]
+    do k = 0, matrices - 1
+      do j = 1, blocks
+        do i = 1, blocks
+          entry = k*(size(value, 1)/matrices) + entries_of_block(size(value, 1)/matrices, i, j)
           estimate(entry) = estimate_errors(value(entry, :), formal_order)
         end do
       end do
     end do
   end function entry_estimates
 
+  !> Numbers of a block's entries in a matrix.
+  pure function entries_of_block(entries, i, j) result(number)
+    integer, intent(in) :: entries !! of the matrix, which is square
+    integer, intent(in) :: i, j !! block of rows, of columns
+    integer, allocatable :: number(:)
+    integer :: motions, row, column
+
+    motions = nint(sqrt(real(entries, wp)))
+    associate (last => [motions - rotations, motions])
+      number = [((motions*(column - 1) + row, row=merge(1, last(1) + 1, i == 1), last(i)), &
+                 column=merge(1, last(1) + 1, j == 1), last(j))]
+    end associate
+  end function entries_of_block
+
   !> The largest error of an entry over the largest entry of its block, with that entry's order.
-  pure function worst_error(value, formal_order) result(worst)
-    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), 4 x 4 matrices behind each other
+  pure function worst_error(value, formal_order, matrices) result(worst)
+    real(wp), intent(in) :: value(:, :) !! [SI] (entry, mesh), square matrices behind each other
     real(wp), intent(in) :: formal_order !! of the elements [1]
+    integer, intent(in) :: matrices !! their number
     type(convergence_type) :: worst !! its value is 1, so that its error is relative
     type(convergence_type), allocatable :: estimate(:)
     real(wp), allocatable :: scale(:)
@@ -115,8 +132,8 @@ contains
     if (size(value, 2) < 2) return
     worst%error = 0.0_wp
     worst%trusted = .true.
-    scale = block_sizes(value(:, size(value, 2)))
-    estimate = entry_estimates(value, formal_order)
+    scale = block_sizes(value(:, size(value, 2)), matrices)
+    estimate = entry_estimates(value, formal_order, matrices)
     do i = 1, size(scale)
       if (.not. scale(i) > 0.0_wp) cycle
       if (.not. estimate(i)%error/scale(i) > worst%error) cycle
@@ -127,29 +144,29 @@ contains
   end function worst_error
 
   !> Largest entry of the block that each entry belongs to; 0 where the block vanishes.
-  pure function block_sizes(value) result(sizes)
-    real(wp), intent(in) :: value(:) !! [SI] 4 x 4 matrices behind each other
+  pure function block_sizes(value, matrices) result(sizes)
+    real(wp), intent(in) :: value(:) !! [SI] square matrices behind each other
+    integer, intent(in) :: matrices !! their number
     real(wp), allocatable :: sizes(:) !! [SI]
-    real(wp), allocatable :: matrix(:, :, :)
     real(wp) :: largest(blocks, blocks)
-    integer :: i, j, k, n
+    integer :: i, j, k
 
-    n = size(value)/journal_motions**2
-    matrix = reshape(value, [journal_motions, journal_motions, n])
-    do k = 1, n
-      do j = 1, blocks
-        do i = 1, blocks
-          largest(i, j) = maxval(abs(matrix(side*i - 1:side*i, side*j - 1:side*j, k)))
+    allocate (sizes(size(value)))
+    associate (entries => size(value)/matrices)
+      do k = 0, matrices - 1
+        do j = 1, blocks
+          do i = 1, blocks
+            largest(i, j) = maxval(abs(value(k*entries + entries_of_block(entries, i, j))))
+          end do
+        end do
+        where (largest <= vanishing*sqrt(largest(1, 1)*largest(2, 2))) largest = 0.0_wp
+        do j = 1, blocks
+          do i = 1, blocks
+            sizes(k*entries + entries_of_block(entries, i, j)) = largest(i, j)
+          end do
         end do
       end do
-      where (largest <= vanishing*sqrt(largest(1, 1)*largest(2, 2))) largest = 0.0_wp
-      do j = 1, blocks
-        do i = 1, blocks
-          matrix(side*i - 1:side*i, side*j - 1:side*j, k) = largest(i, j)
-        end do
-      end do
-    end do
-    sizes = reshape(matrix, [size(value)])
+    end associate
   end function block_sizes
 
   !> A sequence without meshes.
@@ -186,7 +203,7 @@ contains
       self%unit = quantity%unit
       self%value = [self%value, quantity%number]
       if (self%is_of_many()) then
-        one%estimate = worst_error(self%coefficients, self%formal_order)
+        one%estimate = worst_error(self%coefficients, self%formal_order, self%matrices)
       else
         one%estimate = estimate_error(self%value, self%formal_order, self%nodal)
       end if
@@ -195,11 +212,13 @@ contains
   end subroutine sequence_add
 
   !> Takes a mesh's stiffness and damping, before its value.
-  pure subroutine sequence_add_coefficients(self, values)
+  pure subroutine sequence_add_coefficients(self, values, matrices)
     class(mesh_sequence_type), intent(inout) :: self !! the sequence
     real(wp), intent(in) :: values(:) !! [SI] as many on every mesh
+    integer, intent(in) :: matrices !! that they are of
     real(wp), allocatable :: all(:)
 
+    self%matrices = matrices
     allocate (all(0))
     if (allocated(self%coefficients)) all = reshape(self%coefficients, [size(self%coefficients)])
     self%coefficients = reshape([all, values], [size(values), size(all)/size(values) + 1])
@@ -213,7 +232,7 @@ contains
 
     if (.not. allocated(self%coefficients)) return
     if (size(self%coefficients, 2) < 2) return
-    estimate = entry_estimates(self%coefficients, self%formal_order)
+    estimate = entry_estimates(self%coefficients, self%formal_order, self%matrices)
     errors = estimate%error
   end subroutine sequence_coefficient_errors
 
@@ -467,7 +486,7 @@ contains
     if (allocated(error)) return
     seconds = cpu_seconds() - begun
     if (study%converged .and. allocated(study%coefficients)) then
-      call sequence%add_coefficients(study%coefficients)
+      call sequence%add_coefficients(study%coefficients, 2*size(scene%dynamics%frequencies))
       if (sequence%is_of_many()) call add_result(study%found, all_coefficients, 1.0_wp)
     else if (allocated(sequence%coefficients)) then
       deallocate (sequence%coefficients) ! those of coarser meshes no longer count

@@ -19,6 +19,7 @@ from contact_strips import COARSE, FORCE, PAIR
 from gfb_run import COST, GFB, MPIEXEC, SECONDS, Answer, Checks, largest_difference, read_summary, \
     run_file, seal, write_case
 from shell_bearing import BEARING, BUMPS, SHEET, SIZES, SPEED
+from thrust import SPRINGS, thrust
 
 SEED = 20201
 KILLS = 3
@@ -336,6 +337,9 @@ def check_all_foils(checks, folder, loads, tilts, chance):
     check_kills(checks, folder, "beams_placed",
                 bearing("beam", moved, scene={"analysis": "fixed_position"},
                         operation={"eccentricity": (1.0e-5, 5.0e-6)}), chance)
+    pressed = {"parameter": "axial_load", "values": (60.0, 90.0, 120.0, 150.0, 120.0)}
+    check_kills(checks, folder, "thrust", thrust({"axial_load": 60.0, "moment": (0.2, -0.1)}, "equilibrium", SPRINGS, sweep=pressed,
+                                                 output={"restart_every": 1}), chance, (1, 2, 1, 1))
     speeds = {"parameter": "speed_rpm", "values": (60000.0, 50000.0, 40000.0, 30000.0, 25000.0)}
     check_kills(checks, folder, "foundation",
                 bearing("elastic_foundation", speeds, operation={"load": (-50.0, 0.0)}, bump_foil={**SHEET, **BUMPS},

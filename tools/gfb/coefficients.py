@@ -10,6 +10,7 @@
 
 CASE.h5 is of analysis = 'linear_dynamics'. The first two hold the four coefficients of x and y over the frequency of
 vibration, at one speed where no other is said: for stability take them at the frequency of the mode, not at the speed.
+Of a thrust bearing ROSS gets kzz and czz, along the axis; the others are zero.
 """
 
 import argparse
@@ -26,6 +27,7 @@ from gfb.tool import say, stop
 
 PLANE = (("xx", 0, 0), ("xy", 0, 1), ("yx", 1, 0), ("yy", 1, 1))  # name, row, column
 ROSS_3 = "3: a table over the speed of the shaft (rows) and the frequency of vibration"
+MOTIONS = (4, 3)  # of a journal, and of a runner: e_z, phi_x, phi_y
 LARGE = 1.0e-3  # deviation of a fit that is warned of
 ABOUT = ("x' = A x + B a, force on the shaft = -(C x + D a + E a'), all changes against the steady state. a: displacement of "
          "the shaft along x, y [m], rotation about x, y [rad]; force: along x, y [N], torque about x, y [N m]. A [1/s], "
@@ -48,8 +50,8 @@ def read_coefficients(path, point=None):
         elif point is not None:
             raise Unreadable(f"{path}: --point is of sweeps, this is none")
         frequency = numpy.atleast_1d(frequency)
-        if any(values.shape != (len(frequency), 4, 4) for values in both):
-            raise ValueError("stiffness and damping are no 4 x 4 a frequency")
+        if any(values.shape not in ((len(frequency), n, n) for n in MOTIONS) for values in both):
+            raise ValueError("stiffness and damping are neither 4 x 4 a frequency, nor 3 x 3 of a thrust bearing")
         return frequency, *both
 
 
@@ -62,8 +64,9 @@ def read_speeds(path):
         speed = file["history/speed_rpm"].astype(float)[...]*math.pi/30.0
         frequency, *both = (file[f"dynamics/{name}"].astype(float)[...] for name in ("frequency", "stiffness", "damping"))
         order = numpy.argsort(speed)
-        if frequency.ndim != 2 or any(values.shape != (len(speed), frequency.shape[1], 4, 4) for values in both):
-            raise ValueError("stiffness and damping are no 4 x 4 a speed and frequency")
+        if frequency.ndim != 2 or any(
+                values.shape not in ((len(speed), frequency.shape[1], n, n) for n in MOTIONS) for values in both):
+            raise ValueError("stiffness and damping are neither 4 x 4 a speed and frequency, nor 3 x 3 of a thrust bearing")
         if (frequency != frequency[0]).any():
             raise Unreadable(f"{path}: a table over the speed needs the same frequencies at all speeds: give &dynamics frequencies, "
                              "not frequency_ratios, or say which point with --point")
@@ -81,7 +84,10 @@ def is_sweep(path):
 
 
 def columns_of(stiffness, damping):
-    """{kxx: values over frequency, or over speed and frequency, ..., cyy: ...}."""
+    """{kxx: values over frequency, or over speed and frequency, ..., cyy: ...}; of a runner kzz and czz, beside zeros."""
+    if stiffness.shape[-1] < 4:
+        return {kind + name: 0.0*values[..., 0, 0] for kind, values in (("k", stiffness), ("c", damping)) for name, _, _ in PLANE} | \
+            {"kzz": stiffness[..., 0, 0], "czz": damping[..., 0, 0]}
     return {kind + name: values[..., row, column] for kind, values in (("k", stiffness), ("c", damping))
             for name, row, column in PLANE}
 
@@ -107,6 +113,8 @@ def xltrc_text(frequency, columns, name):
 def table_writer(text_of, data, name):
     """What writes a table to a path."""
     frequency, stiffness, damping = data
+    if stiffness.shape[-1] < 4 and text_of is xltrc_text:
+        stop(f"{name}: a thrust bearing; XLTRC2's columns are of journal bearings")
     return lambda path: path.write_text(text_of(frequency, columns_of(stiffness, damping), name), encoding="utf-8")
 
 
@@ -121,6 +129,8 @@ def ross_writer(over, data, name):
 def state_space_writer(options, data):
     """The same of the matrices; says how good they are."""
     frequency, stiffness, damping = data
+    if stiffness.shape[-1] < 4:
+        stop(f"{options.file}: a thrust bearing; --state-space is of journal bearings")
     if options.state_space.suffix == ".mat" and importlib.util.find_spec("scipy") is None:
         stop(f"{options.state_space}: a .mat file needs SciPy: apt-get install python3-scipy")
     if options.state_space.suffix not in (".npz", ".mat"):

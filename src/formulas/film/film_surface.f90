@@ -27,6 +27,7 @@ module gfb_film_surface
 
   integer, parameter, public :: shaft_coordinates = 5 !! e_x, e_y, e_z [m], phi_x, phi_y [rad]
   integer, parameter, public :: translations = 3      !! those of them before the tilts
+  integer, parameter, public :: axial_coordinate = 3  !! of them
   integer, parameter, public :: journal_motions = 4   !! that change the gap of a journal
   !> Which these are.
   integer, parameter, public :: journal_coordinates(journal_motions) = [1, 2, 4, 5]

@@ -20,7 +20,7 @@ module gfb_bearing
   use gfb_petsc_session, only: this_rank, rank_count, sum_over_ranks, largest_over_ranks
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
-  use gfb_film_surface, only: translations
+  use gfb_film_surface, only: shaft_coordinates, translations
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type, contact_name
   use gfb_blocks, only: blocks_type, block_type, create_blocks
@@ -61,6 +61,7 @@ module gfb_bearing
     procedure :: solid_pressure
     procedure :: position => bearing_position
     procedure :: eccentricity => bearing_eccentricity
+    procedure :: shaft_place
     procedure :: smallest_gap, local_force, reaction, force_scale, levers, equation_scale
     procedure :: begin_path => begin_bearing_path
     procedure :: next_change => next_bearing_change
@@ -267,14 +268,23 @@ contains
   !> Eccentricity at the present state, found or fixed [m].
   function bearing_eccentricity(self) result(eccentricity)
     class(bearing_type), intent(in) :: self !! the bearing
-    real(wp) :: eccentricity(2)
+    real(wp) :: eccentricity(2), place(shaft_coordinates)
+
+    place = self%shaft_place()
+    eccentricity = place(:2)
+  end function bearing_eccentricity
+
+  !> The shaft's coordinates at the present state, found or fixed [m], [rad].
+  function shaft_place(self) result(place)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp) :: place(shaft_coordinates)
     type(operating_point_type) :: here
     real(wp) :: unknown(self%local_size())
 
     call self%get_unknowns(unknown)
     here = self%position(unknown)
-    eccentricity = here%place(:2)
-  end function bearing_eccentricity
+    place = here%place
+  end function shaft_place
 
   !> Smallest gap at the present state, over all ranks [m].
   real(wp) function smallest_gap(self) result(gap)

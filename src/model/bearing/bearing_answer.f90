@@ -6,8 +6,9 @@ module gfb_bearing_answer
   use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, &
                                   measures_of, extremes, summed
   use gfb_film_load, only: film_forces
-  use gfb_gas_film, only: force_without_suction, film_drag, film_moment, film_peclet, &
-                          film_midplane_gap
+  use gfb_film_surface, only: shaft_coordinates
+  use gfb_film_measures, only: force_without_suction, film_drag, film_moment, film_peclet, &
+                               film_midplane_gap, pressure_moments, square_integrals
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   use gfb_heat_answer, only: heat_answer_type, heat_answer
@@ -19,9 +20,18 @@ module gfb_bearing_answer
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
 
+  !> What a thrust bearing's answer has beside those of all.
+  type, public :: ring_answer_type
+    logical :: present = .false.
+    real(wp) :: area = 0.0_wp          !! of the pads [m2]
+    real(wp) :: thinnest(2) = 0.0_wp   !! radius and angle where the film is thinnest [m], [rad]
+    real(wp) :: centre(2) = 0.0_wp     !! the same of the pressure on pad 1, from its leading edge
+    integer :: pads = 1, pads_solved = 1
+  end type ring_answer_type
+
   !> Numbers of one state.
   type, public :: bearing_answer_type
-    real(wp) :: eccentricity(2) = 0.0_wp           !! [m]
+    real(wp) :: place(shaft_coordinates) = 0.0_wp  !! of the sleeve relative to the shaft [m], [rad]
     real(wp) :: force(film_forces) = 0.0_wp        !! F_x, F_y on the sleeve, M_x, M_y on the shaft;
     !! with the asperities'
     real(wp) :: force_without_suction(film_forces) = 0.0_wp !! the same, p > p_a only
@@ -45,7 +55,9 @@ module gfb_bearing_answer
     real(wp) :: maximum_deflection = 0.0_wp        !! of the foil away from the shaft [m]
     type(contact_measures_type) :: contact         !! of the foil, what judges their laws' numbers
     type(heat_answer_type) :: heat                 !! where the film carries heat
-    real(wp), allocatable :: pad_force(:, :)       !! (2, pads) share of each of several pads [N]
+    type(ring_answer_type) :: ring
+    !> (5, pads) share of each of several pads [N], [N m]
+    real(wp), allocatable :: pad_force(:, :)
     real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
     real(wp), allocatable :: pad_lift(:, :)        !! (2, pads) `leading_edge_lift` of each pad [m]
   end type bearing_answer_type
@@ -87,12 +99,12 @@ contains
     most = reshape(largest_over_ranks(pack(most, .true.)), shape(most))
     largest = maxval(most, 2)
     if (size(bearing%pad) > 1) then
-      answer%pad_force = sums(1:2, :)
+      answer%pad_force = sums(:film_forces, :)
       answer%pad_gap = -most(1, :)
     end if
     if (whole .and. bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
     if (bearing%pad(1)%contact%present) call read_solid_contact(bearing, unknown, answer)
-    answer%eccentricity = bearing%eccentricity()
+    answer%place = bearing%shaft_place()
     answer%force = total(1:film_forces) + answer%solid_force
     answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
     answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius &
@@ -118,7 +130,45 @@ contains
     answer%rough_peclet = largest(7)
     answer%maximum_deflection = largest(8)
     if (whole) answer%contact = measures_of(largest(9:), sum(contact, 2))
+    if (whole .and. abs(bearing%pad(1)%film%surface%sine) > 0.0_wp) then
+      answer%ring = ring_answer(bearing, pressure, gap)
+    end if
   end function bearing_answer
+
+  !> Where a thrust bearing's film is thinnest, and its pressure centred.
+  function ring_answer(bearing, pressure, gap) result(answer)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: pressure(:) !! at all film nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! at all film nodes [m]
+    type(ring_answer_type) :: answer
+    real(wp) :: moments(3), smallest(1), least, here(2), area(2)
+    integer :: i, node
+
+    answer%present = .true.
+    answer%pads_solved = size(bearing%pad)
+    smallest = -largest_over_ranks([-minval(gap)])
+    here = -huge(1.0_wp)
+    area = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
+        area = area + square_integrals(film, pressure(pad%first_node + 1:pad%last_node))
+        node = minloc(gap(pad%first_node + 1:pad%last_node), 1)
+        least = gap(pad%first_node + node)
+        if (least <= smallest(1)) here = [film%axial(node), film%angle(node)]
+      end associate
+    end do
+    area = sum_over_ranks(area)
+    answer%area = area(2)*bearing%pad(1)%whole%repeats
+    answer%pads = bearing%pad(1)%whole%repeats*size(bearing%pad)
+    answer%thinnest = largest_over_ranks(here)
+    associate (pad => bearing%pad(1))
+      moments = pressure_moments(pad%film, pressure(pad%first_node + 1:pad%last_node))
+      moments = sum_over_ranks(moments)
+      if (abs(moments(1)) > 0.0_wp) then
+        answer%centre = moments(2:)/moments(1) - [0.0_wp, pad%whole%station_angle(1)]
+      end if
+    end associate
+  end function ring_answer
 
   !> Sums over the ranks, and over the pads.
   subroutine add_up(sums, total)
@@ -179,7 +229,7 @@ contains
       end associate
     end do
     call add_up(sums, total)
-    if (allocated(answer%pad_force)) answer%pad_force = answer%pad_force + sums(1:2, :)
+    if (allocated(answer%pad_force)) answer%pad_force = answer%pad_force + sums(:film_forces, :)
     associate (film => bearing%pad(1)%film)
       largest = largest_over_ranks([maxval(pressure)])
       answer%has_solid_contact = .true.
@@ -252,7 +302,7 @@ contains
     type(archive_type), intent(inout) :: archive !! saves or restores
     type(bearing_answer_type), intent(inout) :: answer !! written where the archive restores
 
-    call archive%visit('eccentricity', answer%eccentricity)
+    call archive%visit('place', answer%place)
     call archive%visit('force', answer%force)
     call archive%visit('force_without_suction', answer%force_without_suction)
     call archive%visit('friction_torque', answer%friction_torque)

@@ -8,17 +8,18 @@ module gfb_bearing_builder
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_scene, only: scene_type
+  use gfb_scene_rules, only: solves_one_pad
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan, foil_rigid, &
                             foil_elastic_foundation, foil_beam
-  use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at
+  use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh
   use gfb_foil_builder, only: plate_stations, shape_on_pad, gaps_beside
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
   use gfb_aligned_mesh, only: align_stations
   use gfb_bore_profile, only: bore_kinks
-  use gfb_gas_film, only: put_bore, freeze_film, frozen_heat_type
+  use gfb_gas_film, only: put_strips, put_bore, put_ramp, freeze_film, frozen_heat_type
   use gfb_heat_switch, only: follow_frozen
   use gfb_solid_contact, only: solid_contact_type
   use gfb_changed_foil, only: take_foil_numbers
@@ -159,7 +160,10 @@ contains
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
     bearing%sparse = scene%model%foil /= foil_shell
-    call create_bearing_system(bearing, foil, floats, place)
+    if (scene%model%has_strips()) then
+      call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, foil%rate, bearing%pad(1)%film)
+    end if
+    call create_bearing_system(bearing, foil, floats, scene%operation%moment_given, place)
     call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
 
@@ -219,6 +223,9 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         call put_bore(pad%film, scene%bore%profile)
+        if (scene%bearing%ramp_part > 0.0_wp) then
+          call put_ramp(pad%film, scene%bearing%ramp_gap(pad%film%angle - pad%whole%station_angle(1)))
+        end if
         pad%film%interference = scene%bearing%interference
         pad%film%law = scene%gas%law
         pad%contact = asperities_of(scene)
@@ -276,15 +283,15 @@ contains
     integer :: i
 
     associate (bearing => scene%bearing)
-      allocate (place(bearing%pads*merge(2, 1, offset > 0.0_wp)))
-      do i = 1, bearing%pads
+      allocate (place(merge(1, bearing%pads, solves_one_pad(scene))*merge(2, 1, offset > 0.0_wp)))
+      do i = 1, min(bearing%pads, size(place))
         place(i)%turn = pad_turn(bearing, i)
         associate (angle => preload_angle(bearing, i))
           if (bearing%preload > 0.0_wp) place(i)%shift = -bearing%preload*bearing%clearance*[cos(angle), sin(angle)]
         end associate
         if (i > 1 .and. scene%bump_foil%random%deviation > 0.0_wp) place(i)%further_gap = gaps_beside(scene%bump_foil, i)
       end do
-      if (size(place) == bearing%pads) return
+      if (size(place) <= bearing%pads) return
       do i = 1, bearing%pads
         place(bearing%pads + i) = place(i)
         place(i)%offset = offset
@@ -321,7 +328,12 @@ contains
     integer :: i
 
     associate (bearing => scene%bearing)
-      if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
+      if (bearing%is_thrust()) then
+        mesh = sector_film_mesh([bearing%inner_radius, bearing%radius], bearing%leading_edge_angle, pad_angle(bearing), &
+                                bearing%ramp_part*pad_angle(bearing), scene%model%cut_radii, plan%circumferential, plan%axial, &
+                                scene%mesh%edge_refinement, plan%order)
+        if (solves_one_pad(scene)) mesh%repeats = bearing%pads
+      else if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
                             bearing%length, plan%axial, plan%half, plan%order, scene%mesh%edge_refinement)
       else

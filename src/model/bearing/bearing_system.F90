@@ -50,10 +50,11 @@ module gfb_bearing_system
 contains
 
   !> Puts film, foil and shaft together; the foil moves into the system.
-  subroutine create_bearing_system(bearing, foil, floats, place)
+  subroutine create_bearing_system(bearing, foil, floats, tilts, place)
     type(bearing_system_type), intent(inout) :: bearing !! with the film of its first pad
     class(foil_model_type), allocatable, intent(inout) :: foil !! under the film
-    logical, intent(in) :: floats !! (e_x, e_y) are unknowns, tilts with a rotor of two bearings
+    logical, intent(in) :: floats !! the shaft's translations are unknowns, tilts with a rotor of two bearings
+    logical, intent(in) :: tilts !! the tilts of one bearing are unknowns, too
     type(pad_place_type), intent(in), optional :: place(:) !! of the pads, which are equal; default: one
 
     call register_cost_events(bearing%events)
@@ -62,7 +63,7 @@ contains
     bearing%clearance = bearing%pad(1)%film%clearance
     bearing%floats = floats
     associate (surface => bearing%pad(1)%film%surface, motions => bearing%pad(1)%film%surface%motions())
-      bearing%coordinate = pack(motions, floats .and. (motions <= translations .or. abs(surface%offset) > 0.0_wp))
+      bearing%coordinate = pack(motions, floats .and. (motions <= translations .or. tilts .or. abs(surface%offset) > 0.0_wp))
     end associate
     call set_up_equations(bearing)
   end subroutine create_bearing_system

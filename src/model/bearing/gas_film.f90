@@ -7,13 +7,11 @@ module gfb_gas_film
                                most_film_nodes
   use gfb_bore_profile, only: bore_profile_type, bore_height
   use gfb_film_surface, only: film_surface_type, shaft_coordinates, translations, entraining_speed
-  use gfb_film_load, only: film_forces, film_force_weights, film_force, film_friction, &
-                           film_friction_rates
+  use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type, gas_factors_type
-  use gfb_general_film, only: general_residual, general_jacobian, general_friction, &
-                              general_friction_rates, general_peclet
+  use gfb_general_film, only: general_residual, general_jacobian
   use gfb_squeeze_term, only: stored_gas, storage_residual, storage_jacobian
-  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_film_flow, only: film_flow_type
   use gfb_reynolds_element, only: reynolds_residual, reynolds_jacobian
   use gfb_heated_film, only: heated_gas_type, heated_state_type, heated_residual, heated_jacobian, &
                              gas_factors, heated_rows, heated_fields, row_mass, field_pressure, &
@@ -22,8 +20,7 @@ module gfb_gas_film
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
-  public :: create_gas_film, put_bore, freeze_film, force_without_suction, film_drag, &
-            film_drag_rates, film_moment, square_integrals, film_peclet, film_midplane_gap
+  public :: create_gas_film, put_bore, put_ramp, put_strips, freeze_film
 
   integer, parameter :: corners = 4 !! of a cell
 
@@ -43,11 +40,12 @@ module gfb_gas_film
     type(film_flow_type) :: flow          !! of a shaft at rest, see `flow_at`
     type(gas_law_type) :: law             !! of the gas
     type(film_surface_type) :: surface    !! that it lies on
-    real(wp) :: clearance = 0.0_wp        !! C [m]
+    real(wp) :: clearance = 0.0_wp        !! C; of a ring the size of its gap [m]
     real(wp) :: interference = 0.0_wp     !! of foil and shaft, less of the gap all around [m]
     real(wp) :: shift(2) = 0.0_wp         !! of the pad's centre, adds to the eccentricity [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
-    real(wp) :: copies = 1.0_wp           !! two where half the width is meshed
+    !> Two where half the width is meshed; of a pad that stands for all how many they are.
+    real(wp) :: copies = 1.0_wp
     real(wp) :: cell(2) = 0.0_wp          !! size of the first cell along motion and axis [m]
     real(wp) :: width = 0.0_wp            !! that is meshed [m]
     integer, allocatable :: element_nodes(:, :)   !! (4 or 9, elements), local nodes
@@ -59,17 +57,19 @@ module gfb_gas_film
     logical, allocatable :: fixed(:)              !! nodes at ambient pressure
     type(film_geometry_type), allocatable :: geometry(:) !! of the elements
     real(wp), allocatable :: force_weight(:, :)   !! (5, nodes) this rank's share [m2], [m3]
-    real(wp), allocatable :: half_torque_weight(:, :) !! (2, nodes) of half the width, odd in z [m3]
+    real(wp), allocatable :: part_torque_weight(:, :) !! (2, nodes) where those are 0 [m3]
     real(wp), allocatable :: motion(:, :)         !! (5, nodes) b, see `gfb_film_surface` [1], [m]
     real(wp), allocatable :: point_motion(:, :, :)  !! (5, points, elements) the same there [1], [m]
     real(wp), allocatable :: motion_excess(:, :, :) !! (5, points, elements) of them over the nodes'
-    real(wp), allocatable :: bore(:)              !! of a bore that is no circle, its height [m]
+    real(wp), allocatable :: bore(:) !! off the gap: a bore that is no circle, ramps [m]
     real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
+    !> (nodes, elements) of springs that belong to elements, compliance over the nodes' [m/Pa]
+    real(wp), allocatable :: softness(:, :)
     real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
     real(wp), allocatable :: past(:, :) !! (points, elements) rate of r h by earlier ones [Pa m/s]
     type(frozen_heat_type), allocatable :: frozen !! none: the gas has the temperature of its law
   contains
-    procedure :: flow_at, cell_flow, shadow, factors_of
+    procedure :: flow_at, cell_flow, shadow, factors_of, element_gap, softness_of
     procedure :: gap => film_node_gap
     procedure :: excess => film_excess
     procedure :: is_open
@@ -104,7 +104,7 @@ contains
     film%ambient_pressure = ambient_pressure
     film%flow%viscosity = viscosity
     film%flow%upwind = upwind
-    film%copies = merge(2.0_wp, 1.0_wp, whole%half)
+    film%copies = merge(2.0_wp, 1.0_wp, whole%half)*real(whole%repeats, wp)
     film%cell(1) = whole%surface%radius*abs(whole%station_angle(2) - whole%station_angle(1))
     film%cell(2) = whole%row_axial(2) - whole%row_axial(1)
     film%width = whole%row_axial(whole%rows()) - whole%row_axial(1)
@@ -159,8 +159,8 @@ contains
         film%force_weight(:, nodes) = film%force_weight(:, nodes) + film%copies*weight
       end associate
     end do
-    film%half_torque_weight = film%force_weight(translations + 1:, :)
-    ! The mirrored half cancels it.
+    film%part_torque_weight = film%force_weight(translations + 1:, :)
+    ! The mirrored half, or the other pads, cancel it.
     if (film%copies > 1.0_wp) film%force_weight(translations + 1:, :) = 0.0_wp
   end subroutine measure_elements
 
@@ -184,6 +184,60 @@ contains
       end associate
     end do
   end subroutine put_bore
+
+  !> Adds a ramp to the rigid gap. Its end is a side of elements: shape functions have it right.
+  pure subroutine put_ramp(film, height)
+    type(gas_film_type), intent(inout) :: film !! this rank's film
+    real(wp), intent(in) :: height(:) !! at the nodes [m]
+
+    film%bore = -height
+    film%bore_excess = spread(0.0_wp*film%shape(1, :), 2, size(film%element_nodes, 2))
+  end subroutine put_ramp
+
+  !> Gives springs side by side their own stiffness, that of elements: at a cut the deflection
+  !> jumps.
+  pure subroutine put_strips(cuts, stiffness, rate, film)
+    real(wp), intent(in) :: cuts(:)      !! radii between strips, rising [m]
+    real(wp), intent(in) :: stiffness(:) !! of the strips, from the inside [N/m3]
+    real(wp), intent(in) :: rate(:)      !! of the nodes, deflection over pressure [m/Pa]
+    type(gas_film_type), intent(inout) :: film !! this rank's film
+    integer :: element
+
+    allocate (film%softness(size(film%element_nodes, 1), size(film%element_nodes, 2)))
+    do element = 1, size(film%element_nodes, 2)
+      associate (nodes => film%element_nodes(:, element))
+        associate (middle => sum(film%axial(nodes))/real(size(nodes), wp))
+          film%softness(:, element) = 1.0_wp/stiffness(1 + count(cuts < middle)) - rate(nodes)
+        end associate
+      end associate
+    end do
+  end subroutine put_strips
+
+  !> Compliance of an element's springs over that of its nodes [m/Pa].
+  pure function softness_of(self, element) result(softness)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    integer, intent(in) :: element !! of this rank
+    real(wp) :: softness(size(self%shape, 1))
+
+    softness = 0.0_wp
+    if (allocated(self%softness)) softness = self%softness(:, element)
+  end function softness_of
+
+  !> Gap at an element's nodes, as it is inside it [m].
+  pure function element_gap(self, element, pressure, gap) result(inside)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    integer, intent(in) :: element !! of this rank
+    real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
+    real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
+    real(wp) :: inside(size(self%shape, 1))
+
+    associate (nodes => self%element_nodes(:, element))
+      inside = gap(nodes)
+      if (allocated(self%softness)) then
+        inside = inside + self%softness(:, element)*(pressure(nodes) - self%ambient_pressure)
+      end if
+    end associate
+  end function element_gap
 
   !> Gives the film temperatures that stay.
   pure subroutine freeze_film(film, frozen)
@@ -307,7 +361,8 @@ contains
 
     eccentricity = point%place(:2) + self%shift
     gap = deflection + self%surface%gap(self%direction(1, :), self%direction(2, :), self%axial, &
-                                        self%clearance - self%interference, eccentricity(1), &
+                                        self%clearance*self%surface%cosine - self%interference, &
+                                        eccentricity(1), &
                                         eccentricity(2), point%place(3), point%place(4), &
                                         point%place(5))
     if (allocated(self%bore)) gap = gap - self%bore
@@ -350,7 +405,7 @@ contains
     do element = 1, size(self%element_nodes, 2)
       if (.not. open) exit
       excess = self%excess(element, point)
-      here(:n) = gap(self%element_nodes(:, element))
+      here(:n) = self%element_gap(element, pressure, gap)
       do i = 1, n
         open = open .and. dot_product(here(:n), self%shape(:, i)) + excess(i) > 0.0_wp
       end do
@@ -391,7 +446,7 @@ contains
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element), geometry => self%geometry(element))
         p(:n) = pressure(nodes)
-        h(:n) = gap(nodes)
+        h(:n) = self%element_gap(element, pressure, gap)
         excess = self%excess(element, point)
         if (allocated(self%frozen) .and. flow%upwind) then
           share(:n) = frozen_residual(self, flow, element, p(:n), h(:n), excess(:n))
@@ -432,7 +487,7 @@ contains
     n = size(self%shape, 1)
     associate (nodes => self%element_nodes(:, element))
       p(:n) = pressure(nodes)
-      h(:n) = gap(nodes)
+      h(:n) = self%element_gap(element, pressure, gap)
       excess = self%excess(element, point)
       if (allocated(self%frozen) .and. self%flow%upwind) then
         call frozen_jacobian(self, self%flow_at(point), element, p(:n), h(:n), excess(:n), &
@@ -496,7 +551,8 @@ contains
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
         excess = self%excess(element, point)
-        stored(:, element) = stored_gas(self%law, pressure(nodes), gap(nodes), &
+        stored(:, element) = stored_gas(self%law, pressure(nodes), &
+                                        self%element_gap(element, pressure, gap), &
                                         excess(:size(self%shape, 2)), self%factors_of(element))
       end associate
     end do
@@ -509,170 +565,4 @@ contains
     real(wp) :: force(film_forces)
     force = matmul(self%force_weight, pressure - self%ambient_pressure)
   end function film_node_force
-
-  !> This rank's share of force and torque where the pressure is above ambient only [N], [N m].
-  pure function force_without_suction(film, pressure) result(force)
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp) :: force(film_forces)
-    integer :: element
-
-    force = 0.0_wp
-    do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element))
-        force = force + film%copies*film_force(film%geometry(element), &
-                                               film%point_motion(:, :, element), &
-                                               pressure(nodes) - film%ambient_pressure)
-      end associate
-    end do
-    if (film%copies > 1.0_wp) force(translations + 1:) = 0.0_wp
-  end function force_without_suction
-
-  !> This rank's share of the drag on the shaft [N].
-  pure real(wp) function film_drag(film, pressure, gap, point) result(drag)
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    type(operating_point_type), intent(in) :: point !! operating point
-    type(film_flow_type) :: flow
-    integer :: element
-
-    drag = 0.0_wp
-    flow = film%flow_at(point)
-    do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element))
-        drag = drag + film%copies*element_drag(film, flow, element, pressure(nodes), gap(nodes), &
-                                               film%excess(element, point))
-      end associate
-    end do
-  end function film_drag
-
-  !> An element's drag on the shaft [N].
-  pure real(wp) function element_drag(film, flow, element, pressure, gap, excess) result(drag)
-    type(gas_film_type), intent(in) :: film
-    type(film_flow_type), intent(in) :: flow
-    integer, intent(in) :: element
-    real(wp), intent(in) :: pressure(:), gap(:) !! at its nodes [Pa], [m]
-    real(wp), intent(in) :: excess(:)           !! of the gap at its points, the first ones [m]
-
-    if (film%law%plain) then
-      drag = film_friction(film%geometry(element), flow, pressure, gap, excess(:size(gap)))
-    else
-      drag = general_friction(film%geometry(element), flow, film%law, pressure, gap, &
-                              excess(:size(gap)), film%factors_of(element))
-    end if
-  end function element_drag
-
-  !> This rank's shares of the derivatives of the drag by the nodes' pressures and gaps.
-  pure subroutine film_drag_rates(film, pressure, gap, point, by_pressure, by_gap)
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    type(operating_point_type), intent(in) :: point !! operating point
-    real(wp), intent(out) :: by_pressure(:) !! [N/Pa]
-    real(wp), intent(out) :: by_gap(:)      !! [N/m]
-    real(wp), dimension(size(film%element_nodes, 1)) :: excess, of_pressure, of_gap
-    type(film_flow_type) :: flow
-    integer :: element
-
-    by_pressure = 0.0_wp
-    by_gap = 0.0_wp
-    flow = film%flow_at(point)
-    do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
-        associate (p => pressure(nodes), h => gap(nodes), every => film%excess(element, point))
-          excess = every(:size(excess))
-          if (film%law%plain) then
-            call film_friction_rates(geometry, flow, p, h, excess, of_pressure, of_gap)
-          else
-            call general_friction_rates(geometry, flow, film%law, p, h, excess, of_pressure, &
-                                        of_gap, film%factors_of(element))
-          end if
-        end associate
-        by_pressure(nodes) = by_pressure(nodes) + film%copies*of_pressure
-        by_gap(nodes) = by_gap(nodes) + film%copies*of_gap
-      end associate
-    end do
-  end subroutine film_drag_rates
-
-  !> This rank's share of the integral of a nodal field over the bearing's surface [m2] times it,
-  !> where what it does counts by its radius: torque over the radius R of the surface.
-  pure real(wp) function film_moment(film, value) result(integral)
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    real(wp), intent(in) :: value(:) !! at the local film nodes, in any unit [SI]
-    integer :: element
-
-    integral = 0.0_wp
-    do element = 1, size(film%element_nodes, 2)
-      associate (here => value(film%element_nodes(:, element)), geometry => film%geometry(element))
-        integral = integral + film%copies*dot_product(matmul(here, film%shape), &
-                                                      geometry%area*geometry%stretch)
-      end associate
-    end do
-  end function film_moment
-
-  !> This rank's shares of the integral of a nodal field's square over the solved surface, and of
-  !> its area [m2].
-  pure function square_integrals(film, value) result(integrals)
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    real(wp), intent(in) :: value(:) !! at the nodes, in any unit [SI]
-    real(wp) :: integrals(2)
-    integer :: element
-
-    integrals = 0.0_wp
-    do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element), area => film%geometry(element)%area)
-        integrals = integrals + [dot_product(matmul(value(nodes), film%shape)**2, area), sum(area)]
-      end associate
-    end do
-  end function square_integrals
-
-  !> Largest cell Peclet number of this rank, where the gap changes by a share of itself [1].
-  pure real(wp) function film_peclet(film, point, pressure, gap, change) result(peclet)
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    type(operating_point_type), intent(in) :: point !! whose speed counts
-    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at the nodes [m]
-    real(wp), intent(in) :: change      !! least change of the gap in a cell, over the gap [1]
-    type(film_flow_type) :: flow
-    integer :: element, i
-
-    peclet = 0.0_wp
-    flow = film%flow_at(point)
-    do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element), &
-                 factors => film%factors_of(element))
-        if (maxval(gap(nodes)) - minval(gap(nodes)) < change*minval(gap(nodes))) cycle
-        do i = 1, size(film%shape, 2)
-          peclet = max(peclet, abs(general_peclet(film%law, flow_here(flow, geometry%stretch(i)), &
-                                                  geometry%stream_length(i), &
-                                                  dot_product(film%shape(:, i), pressure(nodes)), &
-                                                  dot_product(film%shape(:, i), gap(nodes)), &
-                                                  factors(i))))
-        end do
-      end associate
-    end do
-  end function film_peclet
-
-  !> Smallest gap of this rank at z = 0, between nodes where none stands there [m].
-  pure real(wp) function film_midplane_gap(film, gap) result(smallest)
-    type(gas_film_type), intent(in) :: film !! this rank's share of it
-    real(wp), intent(in) :: gap(:) !! at the nodes [m]
-    real(wp) :: share
-    integer :: cell, a, b
-
-    smallest = huge(1.0_wp)
-    do cell = 1, size(film%cell_nodes, 2)
-      associate (nodes => film%cell_nodes(:, cell))
-        do a = 1, corners
-          b = modulo(a, corners) + 1
-          associate (z_a => film%axial(nodes(a)), z_b => film%axial(nodes(b)))
-            if (z_a*z_b > 0.0_wp .or. abs(z_b - z_a) <= 0.0_wp) cycle
-            share = z_a/(z_a - z_b)
-            smallest = min(smallest, (1.0_wp - share)*gap(nodes(a)) + share*gap(nodes(b)))
-          end associate
-        end do
-      end associate
-    end do
-  end function film_midplane_gap
 end module gfb_gas_film

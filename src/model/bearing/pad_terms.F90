@@ -130,7 +130,7 @@ contains
     real(wp), dimension(size(pad%film%shape, 1), size(pad%film%shape, 1)) :: by_pressure, by_gap
     real(wp) :: by_shaft(size(pad%film%shape, 1), size(state%shaft%coordinate))
     ! a row of the matrix in each column, as PETSc reads it
-    real(wp) :: block(2*size(by_gap, 1) + size(by_shaft, 2), size(by_gap, 1))
+    real(wp) :: block(2*size(by_gap, 1) + size(by_shaft, 2), size(by_gap, 1)), softness(size(by_gap, 1))
     PetscInt :: row(size(block, 2)), column(size(block, 1))
     integer :: element, b, node, film_nodes
 
@@ -143,9 +143,10 @@ contains
                                      by_pressure, by_gap, by_shaft)
           block = 0.0_wp
           block(:film_nodes, :) = transpose(by_pressure)
+          softness = film%softness_of(element)
           do b = 1, film_nodes
             node = merge(b, film_nodes + b, foil%source(nodes(b)) == nodes(b))
-            block(node, :) = block(node, :) + foil%rate(nodes(b))*by_gap(:, b)
+            block(node, :) = block(node, :) + (foil%rate(nodes(b)) + softness(b))*by_gap(:, b)
           end do
           block(2*film_nodes + 1:, :) = transpose(by_shaft)
         end associate

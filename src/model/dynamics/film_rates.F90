@@ -56,7 +56,7 @@ contains
 
     real(wp), dimension(size(pad%film%shape, 1), size(pad%film%shape, 1)) :: by_pressure, by_gap
     ! a row of the matrix in each column, as PETSc reads it
-    real(wp) :: block(2*size(by_gap, 1), size(by_gap, 1))
+    real(wp) :: block(2*size(by_gap, 1), size(by_gap, 1)), softness(size(by_gap, 1))
     PetscInt :: row(size(by_gap, 1)), column(2*size(by_gap, 1))
     type(shaft_unknowns_type) :: none
     integer :: element, b, place, n
@@ -69,10 +69,11 @@ contains
         call element_derivatives(film, kind, element, pressure, gap, point, by_pressure, by_gap)
         block = 0.0_wp
         block(:n, :) = transpose(by_pressure)
+        softness = film%softness_of(element)
         associate (nodes => film%element_nodes(:, element))
           do b = 1, n
             place = merge(b, n + b, foil%source(nodes(b)) == nodes(b))
-            block(place, :) = block(place, :) + foil%rate(nodes(b))*by_gap(:, b)
+            block(place, :) = block(place, :) + (foil%rate(nodes(b)) + softness(b))*by_gap(:, b)
           end do
         end associate
         call add_block(matrix, row, column, block)
@@ -108,7 +109,7 @@ contains
 
     associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
       p = pressure(nodes)
-      h = gap(nodes)
+      h = film%element_gap(element, pressure, gap)
       excess = reshape(film%excess(element, point), [size(h)])
       call squeeze_jacobian(geometry, film%law, &
                             squeeze_weights(geometry, film%flow_at(point), film%law, p, h, excess, film%factors_of(element)), &

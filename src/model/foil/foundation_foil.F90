@@ -3,7 +3,8 @@
 !>
 !> With local pressure each film node sinks by \( (p - p_a)/K \): no unknowns of its own. With the
 !> axial mean every station sinks as a whole, by an unknown of its own:
-!> \( K q = \frac{1}{L} \int (p - p_a) \, dz \).
+!> \( K q = \frac{1}{L} \int (p - p_a) \, dz \). In sectors of a ring the mean is that along the radius,
+!> weighted with it, and \( K = K_m (r/r_m)^n \) may change along it, \( r_m \) the mean radius.
 module gfb_foundation_foil
   use petscmat
   use gfb_kinds, only: wp
@@ -22,7 +23,8 @@ module gfb_foundation_foil
 
   !> The elastic foundation under the film.
   type, extends(foil_model_type), public :: foundation_foil_type
-    real(wp) :: stiffness = 0.0_wp           !! K, pressure over deflection [N/m3]
+    real(wp) :: stiffness = 0.0_wp           !! K of the stations, pressure over deflection [N/m3]
+    real(wp), allocatable :: spring(:)       !! K under each of this rank's nodes, under local pressure [N/m3]
     real(wp) :: ambient_pressure = 0.0_wp    !! p_a [Pa]
     real(wp) :: drag = 0.0_wp                !! of the dampers in a step of time [N/m3]
     real(wp), allocatable :: past_drag(:)    !! what earlier deflections of the owned stations add [Pa]
@@ -49,42 +51,71 @@ contains
     type(local_mesh_type), intent(in) :: mesh !! this rank's part of it
     type(foundation_foil_type), intent(out) :: foil !! ready for the bearing
     real(wp) :: stiffness
+    real(wp), allocatable :: part(:)
+    integer :: i
 
     stiffness = foundation_stiffness(scene%model, scene%bump_foil)
+    part = change_along(scene%model%foundation_exponent, film)
+    if (scene%model%has_strips()) then ! the strip outside each row; elements have their own
+      part = scene%model%strip_stiffness([(1 + count(scene%model%cut_radii <= film%row_axial(i)), i=1, film%rows())])/stiffness
+    end if
     if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
+      if (abs(scene%model%foundation_exponent) > 0.0_wp) stiffness = stiffness*dot_product(mean_weights(film), part)
       call create_mean_foundation(film, mesh, this_rank(), rank_count(), stiffness, scene%gas%ambient_pressure, &
                                   scene%bearing%clearance, foil)
     else
-      call create_local_foundation(size(mesh%mesh_node), stiffness, scene%gas%ambient_pressure, foil)
+      call create_local_foundation(stiffness*part(modulo(mesh%mesh_node - 1, film%rows()) + 1), scene%gas%ambient_pressure, foil)
     end if
   end subroutine build_foundation
 
-  !> Stiffness of the foundation, as given or by Walowit and Anno [N/m3].
+  !> Stiffness of the rows over that at the mean radius [1].
+  pure function change_along(exponent, film) result(part)
+    real(wp), intent(in) :: exponent !! of the radius [1]
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    real(wp) :: part(film%rows())
+
+    part = 1.0_wp
+    if (.not. abs(exponent) > 0.0_wp) return
+    associate (radius => film%surface%radius_at(film%row_axial))
+      part = (radius/(0.5_wp*(radius(1) + radius(size(radius)))))**exponent
+    end associate
+  end function change_along
+
+  !> Weights of the rows in the mean across the motion [1].
+  pure function mean_weights(film) result(weight)
+    type(film_mesh_type), intent(in) :: film !! the film's whole mesh
+    real(wp) :: weight(film%rows())
+
+    weight = row_weights(film)*film%surface%stretch(film%row_axial)
+    weight = weight/sum(weight)
+  end function mean_weights
+
+  !> Stiffness of the foundation, as given, of strips their mean, or by Walowit and Anno [N/m3].
   pure real(wp) function foundation_stiffness(model, bump_foil) result(stiffness)
     type(model_case_type), intent(in) :: model !! gives the stiffness, or leaves it to the formula
     type(bump_foil_case_type), intent(in) :: bump_foil !! shape and material of the bumps
 
     stiffness = model%foundation_stiffness
+    if (model%has_strips()) stiffness = sum(model%strip_stiffness)/real(size(model%strip_stiffness), wp)
     if (stiffness > 0.0_wp) return
     stiffness = walowit_anno_stiffness(bump_foil%youngs_modulus, bump_foil%poissons_ratio, &
                                        bump_foil%thickness%value, bump_foil%half_length%value, bump_foil%pitch%value)
   end function foundation_stiffness
 
   !> An elastic foundation that feels the local pressure.
-  subroutine create_local_foundation(nodes, stiffness, ambient_pressure, foil)
-    integer, intent(in) :: nodes                !! film nodes of this rank
-    real(wp), intent(in) :: stiffness           !! K [N/m3]
+  subroutine create_local_foundation(stiffness, ambient_pressure, foil)
+    real(wp), intent(in) :: stiffness(:)        !! K at the film nodes of this rank [N/m3]
     real(wp), intent(in) :: ambient_pressure    !! p_a [Pa]
     type(foundation_foil_type), intent(out) :: foil !! without unknowns of its own
     integer :: i
 
-    foil%stiffness = stiffness
+    foil%spring = stiffness
     foil%ambient_pressure = ambient_pressure
     allocate (foil%global_unknown(0), foil%unknown_scale(0), foil%equation_scale(0))
     allocate (foil%owned_station(0), foil%averaged(0), foil%share(0), foil%row_entries(0))
-    foil%source = [(i, i=1, nodes)]
-    allocate (foil%rate(nodes), source=1.0_wp/stiffness)
-    allocate (foil%origin(nodes), source=ambient_pressure)
+    foil%source = [(i, i=1, size(stiffness))]
+    foil%rate = 1.0_wp/stiffness
+    allocate (foil%origin(size(stiffness)), source=ambient_pressure)
   end subroutine create_local_foundation
 
   !> An elastic foundation that feels the mean pressure along the axis.
@@ -129,8 +160,7 @@ contains
     allocate (foil%origin(size(foil%source)), source=0.0_wp)
     foil%averaged = pack([(i, i=1, size(mesh%owned))], mesh%owned)
     allocate (foil%share(size(foil%averaged)))
-    weight = row_weights(film)
-    weight = weight/sum(weight)
+    weight = mean_weights(film)
     do i = 1, size(foil%averaged)
       row = modulo(mesh%mesh_node(foil%averaged(i)) - 1, film%rows()) + 1
       foil%share(i) = weight(row)
@@ -198,7 +228,7 @@ contains
     if (size(self%global_unknown) > 0) then
       self%past_drag = pull(self%first + self%owned_station)
     else
-      self%rate = 1.0_wp/(self%stiffness + self%drag)
+      self%rate = 1.0_wp/(self%spring + self%drag)
       self%origin = self%ambient_pressure + pull(self%source)
     end if
   end subroutine foundation_damping

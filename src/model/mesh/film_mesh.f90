@@ -2,11 +2,11 @@
 module gfb_film_mesh
   use gfb_kinds, only: wp
   use gfb_units, only: turn
-  use gfb_film_surface, only: film_surface_type, cylinder
+  use gfb_film_surface, only: film_surface_type, cylinder, ring
   implicit none (type, external)
   private
-  public :: axial_rows, uniform_film_mesh, film_mesh_at, cell_nodes, gather_elements, row_weights, &
-            find_film_place, find_interval
+  public :: axial_rows, uniform_film_mesh, film_mesh_at, sector_film_mesh, cell_nodes, &
+            gather_elements, row_weights, find_film_place, find_interval
 
   !> A film mesh by its stations along the shaft's motion and its rows across it.
   !>
@@ -18,6 +18,7 @@ module gfb_film_mesh
     logical :: periodic = .false.              !! the last station's neighbour is the first
     logical :: half = .false.                  !! z >= 0 only, the other half is its mirror
     logical :: opposite = .false.              !! what is solved changes its sign there
+    integer :: repeats = 1                     !! equal pads of a ring for which this one stands
     integer :: order = 1                       !! of the film's elements: 1 bilinear, 2 biquadratic
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
     !> s of the rows: z, 0 at the midplane, of a cylinder [m]
@@ -113,6 +114,59 @@ contains
       mesh%station_angle(i) = 0.5_wp*(mesh%station_angle(i - 1) + mesh%station_angle(i + 1))
     end do
   end function film_mesh_at
+
+  !> Mesh of a sector: stations along the motion, rows from the inner to the outer radius; both
+  !> graded towards the edges, with sides of elements where the ramp ends and where strips meet.
+  pure function sector_film_mesh(radii, leading_edge_angle, pad_angle, ramp_end, cuts, &
+                                 circumferential, radial, refinement, order) result(mesh)
+    real(wp), intent(in) :: radii(2)           !! inner and outer one [m]
+    real(wp), intent(in) :: leading_edge_angle !! theta_0 [rad]
+    real(wp), intent(in) :: pad_angle          !! from leading to trailing edge [rad]
+    real(wp), intent(in) :: ramp_end           !! from the leading edge; 0: there is no ramp [rad]
+    real(wp), intent(in) :: cuts(:)            !! radii where strips meet, rising [m]
+    integer, intent(in) :: circumferential     !! elements along the motion
+    integer, intent(in) :: radial              !! elements along the radius
+    real(wp), intent(in) :: refinement         !! see axial_rows [1]
+    integer, intent(in) :: order               !! of the elements: 1 or 2
+    type(film_mesh_type) :: mesh
+    real(wp), allocatable :: angle(:), radius(:)
+
+    mesh%surface = ring(radii(2))
+    mesh%order = order
+    radius = 0.5_wp*sum(radii) &
+      + axial_rows(radii(2) - radii(1), radial, .false., refinement, order)
+    radius([1, size(radius)]) = radii
+    call put_sides_on(cuts, order, radius)
+    angle = 0.5_wp*pad_angle + axial_rows(pad_angle, circumferential, .false., refinement, order)
+    angle([1, size(angle)]) = [0.0_wp, pad_angle]
+    call put_sides_on([ramp_end], order, angle)
+    mesh%row_axial = radius
+    mesh%station_angle = leading_edge_angle + angle
+  end function sector_film_mesh
+
+  !> Puts the nearest side of an element on each place; what lies between is stretched. Places at an
+  !> end, or without a side of their own, count no more.
+  pure subroutine put_sides_on(wanted, order, place)
+    real(wp), intent(in) :: wanted(:)   !! rising, in the unit of the others [SI]
+    integer, intent(in) :: order        !! of the elements
+    real(wp), intent(inout) :: place(:) !! of the nodes, rising [SI]
+    real(wp) :: before
+    integer :: i, fixed, side, last
+
+    fixed = 1
+    last = size(place)
+    do i = 1, size(wanted)
+      if (wanted(i) <= place(fixed) .or. wanted(i) >= place(last) .or. last - fixed < 2*order) cycle
+      side = fixed + order*minloc(abs(place(fixed + order:last - order:order) - wanted(i)), 1)
+      before = place(side)
+      place(fixed:side) = place(fixed) + (place(fixed:side) - place(fixed))* &
+                          ((wanted(i) - place(fixed))/(before - place(fixed)))
+      place(side + 1:) = place(last) - (place(last) - place(side + 1:))* &
+                         ((place(last) - wanted(i))/(place(last) - before))
+      place(side) = wanted(i)
+      fixed = side
+    end do
+  end subroutine put_sides_on
 
   !> Nodes of a cell, counter-clockwise in (x, z).
   pure function cell_nodes(column, row, stations, rows) result(nodes)

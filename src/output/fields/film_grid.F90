@@ -22,7 +22,7 @@ contains
     integer :: pads
 
     if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
-    pads = size(bearing%pad)
+    pads = size(bearing%pad)*bearing%pad(1)%whole%repeats
     if (abs(bearing%pad(1)%film%surface%offset) > 0.0_wp) pads = pads/2
     call add_pads(bearing, output, 0, pads, 'film', grids)
     if (pads < size(bearing%pad)) call add_pads(bearing, output, pads, pads, 'film_2', grids)
@@ -39,13 +39,26 @@ contains
 
     type(result_grid_type) :: film
     real(wp) :: unknown(bearing%local_size())
-    integer :: i
+    real(wp), allocatable :: angle(:, :)
+    integer :: i, first, last
+    logical :: ring
 
     call bearing%get_unknowns(unknown)
     film%name = name
     film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + bearing%pad(before + 1)%film%surface%offset, &
                            this_rank(), rank_count())
-    call add('theta', 'rad', 'angle around the bearing', [(bearing%pad(i)%film%angle, i=1, size(bearing%pad))])
+    associate (surface => bearing%pad(1)%film%surface, point => film%grid%point)
+      ring = abs(surface%sine) > 0.0_wp
+      angle = point(1:1, :)/surface%radius + bearing%pad(1)%whole%station_angle(1)
+      do i = 1, merge(size(point, 2), 0, ring) ! a ring is no plane when it is unrolled
+        point(:, i) = surface%position(angle(1, i), point(3, i))
+      end do
+    end associate
+    if (ring) then ! pads that are not solved have angles, too
+      call add_grid_field(film%point_field, 'theta', 'rad', 'angle around the bearing', angle)
+    else
+      call add('theta', 'rad', 'angle around the bearing', [(bearing%pad(i)%film%angle, i=1, size(bearing%pad))])
+    end if
     if (output%pressure) call add('pressure', 'Pa', 'absolute pressure', bearing%film_pressure(unknown))
     if (output%gap) call add('gap', 'm', 'film thickness', bearing%gap(unknown))
     if (output%deflection) then
@@ -61,8 +74,9 @@ contains
       call add('heat_flux_shaft', 'W/m2', 'of the heat into the shaft', bearing%shaft_flux(unknown))
     end if
     if (pads > 1) then
-      call add('pad', '1', 'number of the pad', &
-               [(spread(real(i, wp), 1, size(bearing%pad(i)%film%angle)), i=1, size(bearing%pad))])
+      call block_bounds(film%grid%points, this_rank(), rank_count(), first, last)
+      call add_grid_field(film%point_field, 'pad', '1', 'number of the pad', &
+                          reshape([(real(before + (i - 1)/(film%grid%points/pads) + 1, wp), i=first, last)], [1, last - first + 1]))
     end if
     allocate (film%cell_field(0))
     call add_rank(bearing, film)
@@ -92,6 +106,11 @@ contains
     integer :: i
 
     associate (first => bearing%pad(1)%whole)
+      if (first%repeats > 1) then
+        position = [(first%surface%radius*(first%station_angle - first%station_angle(1) + turn*real(i, wp)/real(pads, wp)), &
+                     i=0, pads - 1)]
+        return
+      end if
       position = [(first%surface%radius*(bearing%pad(i)%whole%station_angle - first%station_angle(1)), i=1, pads)]
       if (first%periodic) position = [position, first%surface%radius*turn]
     end associate

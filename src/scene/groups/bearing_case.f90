@@ -1,30 +1,43 @@
 !> `&bearing` and `&pads`: the pad, or several equal ones with their preload; `&bore`: where the
-!> bore is no circle.
+!> bore is no circle; `&ramp`: how the pads of a thrust bearing begin.
 module gfb_bearing_case
   use gfb_kinds, only: wp, most_pads
   use gfb_units, only: turn
   use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive, &
-                           longest_list, any_value, not_negative, rule_type
+                           longest_list, any_value, not_negative, rule_type, unless
   use gfb_text, only: text
   use gfb_bore_profile, only: bore_profile_type, bore_height, bore_peak
   implicit none (type, external)
   private
   public :: bearing_case_type, bore_case_type, read_bearing_case, read_pads_case, read_bore_case
+  public :: read_ramp_case
   public :: pad_angle, pad_length, pad_turn, preload_angle
+
+  integer, parameter, public :: kind_journal = 1 !! a cylinder around the shaft
+  integer, parameter, public :: kind_thrust = 2  !! sectors of a ring, a runner above them
+  character(len=*), parameter :: kind_words(*) = [character(len=7) :: 'journal', 'thrust']
+  character(len=*), parameter, public :: needs_journal = "has no use with kind = 'thrust' in "// &
+                                                         '&bearing'
+  character(len=*), parameter, public :: needs_thrust = "needs kind = 'thrust' in &bearing"
 
   integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
   integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
 
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'slit', 'periodic']
-  character(len=*), parameter :: pads_group = 'pads', bore_group = 'bore'
+  character(len=*), parameter :: pads_group = 'pads', bore_group = 'bore', ramp_group = 'ramp'
   real(wp), parameter :: most_waves = 1000.0_wp !! of a bore; more are roughness, which no mesh has
   real(wp), parameter :: rounding = 1.0e-9_wp !! of angles that are meant to be equal [rad]
 
   !> The pad.
   type :: bearing_case_type
-    real(wp) :: radius = 0.0_wp              !! of the shaft [m]
-    real(wp) :: length = 0.0_wp              !! along the axis [m]
-    real(wp) :: clearance = 0.0_wp           !! radial [m]
+    integer :: kind = kind_journal           !! 0 where it is misspelt
+    real(wp) :: radius = 0.0_wp              !! of the shaft; outer one of a ring [m]
+    real(wp) :: inner_radius = 0.0_wp        !! of a ring [m]
+    real(wp) :: length = 0.0_wp              !! across the motion: along the axis, or the radius [m]
+    !> radial; of a thrust bearing the size of its gap, see `size_of_gap` [m]
+    real(wp) :: clearance = 0.0_wp
+    real(wp) :: ramp_part = 0.0_wp           !! of a pad's arc; 0: no ramp [1]
+    real(wp) :: ramp_height = 0.0_wp         !! at the leading edge [m]
     real(wp) :: interference = 0.0_wp        !! of assembly, off the gap all around [m]
     real(wp) :: leading_edge_angle = 0.0_wp  !! where the first pad begins [rad]
     integer :: leading_edge_condition = leading_edge_slit
@@ -32,6 +45,8 @@ module gfb_bearing_case
     real(wp) :: arc = 0.0_wp                 !! of one of them; 0: it ends at 2 pi [rad]
     real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
     real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
+  contains
+    procedure :: is_thrust, ramp_gap
   end type bearing_case_type
 
   !> The bore.
@@ -50,25 +65,64 @@ contains
     logical, intent(in) :: with_film          !! and a film between it and a shaft
     character(len=*), intent(in) :: misplaced !! why the group does not fit; empty where it does
 
+    character(len=:), allocatable :: journal, thrust !! why keys of the kind have no use
+    logical :: ring
+
     call keys%start_group('bearing', required=needed, optional=.not. needed, &
                           misplaced=misplaced)
-    call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, needed)
-    call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, needed)
+    call keys%choice_key('kind', bearing%kind, kind_words, 'a cylinder around the shaft, or '// &
+                         'pads in a plane across the axis with a runner above them', &
+                         useless=unless(with_film .or. .not. needed, 'has no use without a film'))
+    ring = bearing%is_thrust()
+    journal = unless(.not. ring, needs_journal)
+    thrust = unless(bearing%kind /= kind_journal, needs_thrust)
+    call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, &
+                       needed .and. .not. ring, useless=journal)
+    call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, &
+                       needed .and. .not. ring, useless=journal)
+    call keys%real_key('outer_radius', bearing%radius, 'm', 'outer radius of the pads of a '// &
+                       'thrust bearing', positive, ring, default=no_default, useless=thrust)
+    call keys%real_key('inner_radius', bearing%inner_radius, 'm', 'their inner radius', &
+                       positive, ring, default=no_default, useless=thrust)
+    call keys%rule('bearing', 'inner_radius', ring .and. bearing%radius > 0.0_wp .and. &
+                   bearing%inner_radius >= bearing%radius, 'must be less than outer_radius, '// &
+                   text(bearing%radius)//' m')
+    if (ring) bearing%length = max(bearing%radius - bearing%inner_radius, 0.0_wp)
     call keys%real_key('clearance', bearing%clearance, 'm', &
-                       'radial clearance, shaft to top foil at rest', positive, with_film, &
-                       default=merge('    ', no_default, with_film))
+                       'radial clearance, shaft to top foil at rest', positive, &
+                       with_film .and. .not. ring, default=merge('    ', no_default, with_film), &
+                       useless=journal)
     call keys%real_key('leading_edge_angle', bearing%leading_edge_angle, 'rad', &
-                       'where the pad begins; it ends at 2 pi', from_below(0.0_wp, turn))
+                       'where the pad begins; it ends at 2 pi', from_below(0.0_wp, turn), &
+                       useless=unless(.not. ring, needs_journal//': first_leading_edge in '// &
+                                      '&pads says where its pads begin'))
     call keys%choice_key('leading_edge_condition', bearing%leading_edge_condition, edge_words, &
-                         'ambient pressure at both ends of the pad, or a full ring')
+                         'ambient pressure at both ends of the pad, or a full ring', &
+                         useless=journal)
     call keys%real_key('assembly_interference', bearing%interference, 'm', 'taken off the gap '// &
                        'all around; more than `clearance` presses the foil back at rest', &
-                       at_least(0.0_wp))
+                       at_least(0.0_wp), useless=journal)
     call keys%rule('bearing', 'leading_edge_angle', &
                    bearing%leading_edge_condition == leading_edge_periodic .and. &
                    bearing%leading_edge_angle > 0.0_wp, 'must be 0 with leading_edge_condition '// &
                    "= 'periodic', a full ring")
   end subroutine read_bearing_case
+
+  !> Whether the pads are sectors of a ring.
+  elemental logical function is_thrust(self) result(thrust)
+    class(bearing_case_type), intent(in) :: self !! what `&bearing` asks for
+    thrust = self%kind == kind_thrust
+  end function is_thrust
+
+  !> What the ramp adds to the gap, from the pad's leading edge on [m].
+  elemental real(wp) function ramp_gap(self, angle) result(gap)
+    class(bearing_case_type), intent(in) :: self !! what `&bearing`, `&pads` and `&ramp` ask for
+    real(wp), intent(in) :: angle !! from the leading edge [rad]
+
+    gap = 0.0_wp
+    if (.not. self%ramp_part > 0.0_wp) return
+    gap = self%ramp_height*max(0.0_wp, 1.0_wp - angle/(self%ramp_part*pad_angle(self)))
+  end function ramp_gap
 
   !> Angle that the pad covers [rad].
   elemental real(wp) function pad_angle(bearing) result(angle)
@@ -119,10 +173,12 @@ contains
                        'leading edge of the next', from_below(0.0_wp, turn), &
                        default='2 pi/count less arc')
     call keys%real_key('preload', bearing%preload, '1', 'shift of a pad''s centre of curvature '// &
-                       'towards the shaft, over the clearance', from_below(0.0_wp, 1.0_wp))
+                       'towards the shaft, over the clearance', from_below(0.0_wp, 1.0_wp), &
+                       useless=unless(.not. bearing%is_thrust(), needs_journal))
     call keys%real_key('preload_offset', bearing%preload_offset, '1', 'where on the pad the '// &
                        'preload narrows the gap most: part of the arc from the leading edge', &
-                       from_to(0.0_wp, 1.0_wp))
+                       from_to(0.0_wp, 1.0_wp), &
+                       useless=unless(.not. bearing%is_thrust(), needs_journal))
     call check_edges(keys, bearing, first)
     call check_arc(keys, bearing, gap)
     bearing%leading_edge_angle = first
@@ -171,6 +227,29 @@ contains
       call keys%complain(pads_group, 'gap', 'must be smaller than '//room//': it leaves no pad')
     end if
   end subroutine check_arc
+
+  !> Reads `&ramp` into the bearing; without it the pads are flat.
+  subroutine read_ramp_case(keys, bearing, misplaced)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(bearing_case_type), intent(inout) :: bearing !! what `&bearing` asks for; gets the ramp
+    character(len=*), intent(in) :: misplaced !! why the group does not fit; empty where it does
+    character(len=:), allocatable :: why
+    logical :: present_in_file
+
+    why = misplaced
+    if (why == '') why = unless(bearing%kind /= kind_journal, needs_thrust)
+    call keys%start_group(ramp_group, optional=.true., present_in_file=present_in_file, &
+                          misplaced=why)
+    call keys%real_key('part', bearing%ramp_part, '1', 'part of each pad, from its leading '// &
+                       'edge, over which the gap narrows to that of the land', &
+                       from_to(0.0_wp, 1.0_wp), present_in_file, default=no_default)
+    call keys%real_key('height', bearing%ramp_height, 'm', 'what the ramp adds to the gap at '// &
+                       'the leading edge, falling evenly along the angle', positive, &
+                       present_in_file, default=no_default)
+    call keys%rule(ramp_group, 'part', present_in_file .and. keys%meant(ramp_group, 'part') .and. &
+                   .not. bearing%ramp_part > 0.0_wp, 'must be positive: without a ramp leave '// &
+                   'out the group')
+  end subroutine read_ramp_case
 
   !> Reads `&bore`.
   subroutine read_bore_case(keys, bore, bearing, misplaced)

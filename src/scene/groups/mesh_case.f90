@@ -1,8 +1,9 @@
 !> `&mesh`, the number of elements, and `&solver`, tolerances and limits of the solution.
 module gfb_mesh_case
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_length
-  use gfb_case_keys, only: case_keys_type, between, from_to, positive
+  use gfb_bearing_case, only: bearing_case_type, pad_length, kind_journal, needs_journal, &
+                              needs_thrust
+  use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_model_case, only: model_case_type, meshes_foils
@@ -36,6 +37,8 @@ module gfb_mesh_case
 
   integer, parameter :: elements_a_pitch = 8    !! resolves the sag between crests to about 5 %
   integer, parameter :: elements_around = 240   !! of a pad without bumps
+  integer, parameter :: elements_of_sector = 64 !! of such a pad of a thrust bearing
+  real(wp), parameter :: ring_refinement = 9.0_wp !! towards the edges of such a pad [1]
   integer, parameter, public :: most_a_side = 100000
 
   !> Number of elements.
@@ -106,9 +109,11 @@ contains
     ! As many nodes, whatever the order of the film's elements.
     mesh%circumferential_elements = default_circumferential_elements(bearing, foil)/model%film_order
     mesh%axial_elements = mesh%axial_elements/model%film_order
+    if (bearing%is_thrust()) mesh%edge_refinement = ring_refinement
     call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
                           'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
-                          default='8 a pitch with bumps, otherwise 240; half of it with '// &
+                          default='8 a pitch with bumps, otherwise 240, of a thrust '// &
+                          'bearing 64; half of it with '// &
                           '`film_order = 2`', given=given)
     call keys%rule('bump_foil', 'pitch', .not. given .and. &
                    mesh%circumferential_elements > most_a_side, '8 elements a pitch would be '// &
@@ -116,11 +121,19 @@ contains
     call keys%integer_key('axial_elements', mesh%axial_elements, &
                           'elements of the whole width, also where one half is solved; by '// &
                           'default 16 with `film_order = 2`', &
-                          from_to(2.0_wp, real(most_a_side, wp)))
+                          from_to(2.0_wp, real(most_a_side, wp)), &
+                          useless=unless(.not. bearing%is_thrust(), needs_journal//': '// &
+                                         'radial_elements stands for it'))
+    call keys%integer_key('radial_elements', mesh%axial_elements, 'elements from the inner to '// &
+                          'the outer radius of a thrust bearing', &
+                          from_to(2.0_wp, real(most_a_side, wp)), default='32; 16 with '// &
+                          '`film_order = 2`', &
+                          useless=unless(bearing%kind /= kind_journal, needs_thrust))
     call keys%real_key('edge_refinement', mesh%edge_refinement, '1', 'width of the elements '// &
                        'in the middle over that at the edges of the width: narrow ones where '// &
                        'the pressure falls; 1: equal ones, as strips side by side '// &
-                       'always have', from_to(1.0_wp, 100.0_wp))
+                       'always have; of thrust bearings along both ways', from_to(1.0_wp, &
+                       100.0_wp), default='1; 9 for thrust bearings')
     call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
                           from_to(2.0_wp, 1000.0_wp))
     call keys%rule('mesh', 'arc_elements', modulo(mesh%arc_elements, 2) /= 0, &
@@ -147,6 +160,7 @@ contains
     real(wp) :: pitches
 
     elements = elements_around
+    if (bearing%is_thrust()) elements = elements_of_sector
     if (.not. foil%pitch%value > 0.0_wp .or. .not. bearing%radius > 0.0_wp) return
     pitches = pad_length(bearing)/foil%pitch%value*(1.0_wp - rounding)
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))

@@ -1,7 +1,8 @@
 !> `&model`: how the bearing is modelled.
 module gfb_model_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, unless, from_to, positive
+  use gfb_bearing_case, only: needs_journal, needs_thrust
+  use gfb_case_keys, only: case_keys_type, unless, from_to, positive, longest_list
   use gfb_scene_case, only: is_bearing, is_structure
   implicit none (type, external)
   private
@@ -47,15 +48,20 @@ module gfb_model_case
   integer, parameter, public :: coupling_monolithic = 1
   integer, parameter, public :: coupling_partitioned = 2
 
+  !> Pitch and half length of their bumps grow with the radius: Walowit-Anno's stiffness falls.
+  real(wp), parameter :: exponent_of_curved_strips = -4.0_wp
+
   integer, parameter, public :: foundation_pressure_local = 1
-  integer, parameter, public :: foundation_pressure_axial_mean = 2
+  integer, parameter, public :: foundation_pressure_axial_mean = 2 !! along the rows of nodes
+  integer, parameter, public :: foundation_pressure_radial_mean = 3 !! the same of a thrust bearing
 
   character(len=*), parameter :: reduction_words(*) = [character(len=5) :: 'guyan', 'none', 'auto']
   character(len=*), parameter :: half_words(*) = [character(len=4) :: 'auto', 'yes', 'no']
   character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
   character(len=*), parameter :: coupling_words(*) = [character(len=11) :: &
                                                       'monolithic', 'partitioned']
-  character(len=*), parameter :: pressure_words(*) = [character(len=10) :: 'local', 'axial_mean']
+  character(len=*), parameter :: pressure_words(*) = [character(len=11) :: 'local', 'axial_mean', &
+                                                      'radial_mean']
 
   !> The model.
   type :: model_case_type
@@ -66,18 +72,26 @@ module gfb_model_case
     integer :: film_scheme = film_scheme_auto
     integer :: film_order = film_order_bilinear
     integer :: coupling = coupling_monolithic    !! film and foil together, or in turns
-    real(wp) :: foundation_stiffness = 0.0_wp    !! 0: from the bumps [N/m^3]
+    real(wp) :: foundation_stiffness = 0.0_wp    !! 0: from the bumps; at the mean radius [N/m^3]
+    real(wp), allocatable :: cut_radii(:)        !! of a thrust bearing's strips [m]
+    real(wp), allocatable :: strip_stiffness(:)  !! of each one; none: all are alike [N/m^3]
+    real(wp) :: foundation_exponent = 0.0_wp     !! with which it changes along the radius [1]
     integer :: foundation_pressure = foundation_pressure_axial_mean
+  contains
+    procedure :: has_strips
   end type model_case_type
 
 contains
 
   !> Reads the group.
-  subroutine read_model_case(keys, model, analysis)
+  subroutine read_model_case(keys, model, thrust, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(model_case_type), intent(out) :: model !! what `&model` asks for
+    logical, intent(in) :: thrust   !! the pads are sectors of a ring
     integer, intent(in) :: analysis !! 0 where it is not known
+    character(len=:), allocatable :: journal !! why keys of one have no use
 
+    journal = unless(.not. thrust, needs_journal)
     call keys%start_group('model', required=is_bearing(analysis))
     if (is_structure(analysis)) model%foil = foil_shell
     call keys%choice_key('foil', model%foil, foil_rows%word, 'model of the foils', &
@@ -89,14 +103,19 @@ contains
                          'less', useless=unless(any(model%foil == [0, foil_shell]), &
                          "needs foil = 'shell': no other foil is condensed"))
     call keys%choice_key('half_width', model%half_width, half_words, &
-                         'solve one half, with symmetry at the midplane')
+                         'solve one half, with symmetry at the midplane', useless=journal)
     call keys%choice_key('coupling', model%coupling, coupling_words, &
-                         'solve film and foil together, or in turns for comparison')
+                         'solve film and foil together, or in turns for comparison', &
+                         useless=journal)
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
                          'upwinding of the film elements')
+    if (thrust .and. any(model%foil == [foil_rigid, foil_elastic_foundation])) then
+      model%film_order = film_order_biquadratic
+    end if
     call keys%integer_key('film_order', model%film_order, '1: bilinear film elements; 2: '// &
                           'biquadratic ones, with twice as many node intervals each way as '// &
                           'elements (film and foils share the nodes)', from_to(1.0_wp, 2.0_wp), &
+                          default='2 for thrust bearings, rigid or on springs, otherwise 1', &
                           useless=unless(.not. is_structure(analysis), &
                                          'needs a film: strips and modes have none'))
     call keys%rule('model', 'film_order', model%film_order == film_order_biquadratic .and. &
@@ -105,15 +124,48 @@ contains
     call keys%real_key('foundation_stiffness', model%foundation_stiffness, 'N/m^3', &
                        'pressure over deflection of the elastic foundation', positive, &
                        default='Walowit-Anno from `&bump_foil`')
+    if (thrust .and. .not. model%foundation_stiffness > 0.0_wp) then
+      model%foundation_exponent = exponent_of_curved_strips
+    end if
+    call keys%real_key('foundation_exponent', model%foundation_exponent, '1', 'exponent n of '// &
+                       'the radius in a thrust bearing: foundation_stiffness is that at the '// &
+                       'mean radius, elsewhere it is (r/r_m)^n times that', from_to(-20.0_wp, &
+                       20.0_wp), default='0; -4, of curved strips, where `&bump_foil` gives '// &
+                       'the stiffness', useless=unless(thrust, needs_thrust))
+    if (thrust) model%foundation_pressure = foundation_pressure_local
+    call keys%real_list_key('strip_foundation_stiffness', model%strip_stiffness, longest_list, &
+                            'N/m^3', 'of the strips of a thrust bearing, from the inner radius '// &
+                            'on, in the place of foundation_stiffness', positive, .false., &
+                            'none', useless=unless(thrust, needs_thrust))
+    call keys%real_list_key('cut_radii', model%cut_radii, longest_list, 'm', 'radii where '// &
+                            'these strips meet, rising', positive, .false., 'none', &
+                            useless=unless(thrust, needs_thrust))
     call keys%choice_key('foundation_pressure', model%foundation_pressure, pressure_words, &
                          'what deflects the foundation: the pressure at each point, which '// &
-                         'leaves the edges undeflected, or its mean along the axis')
+                         'leaves the edges undeflected, its mean along the axis, or along '// &
+                         'the radius of a thrust bearing')
+    call keys%rule('model', 'foundation_pressure', thrust .and. model%foundation_pressure == &
+                   foundation_pressure_axial_mean, "must be 'local' or 'radial_mean' with "// &
+                   "kind = 'thrust' in &bearing")
+    call keys%rule('model', 'foundation_pressure', .not. thrust .and. &
+                   model%foundation_pressure == foundation_pressure_radial_mean, needs_thrust)
+    ! One model, whichever way the rows of nodes lie.
+    if (model%foundation_pressure == foundation_pressure_radial_mean) then
+      model%foundation_pressure = foundation_pressure_axial_mean
+    end if
     call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
                    model%foil == foil_elastic_foundation .and. &
                    model%foundation_pressure == foundation_pressure_local, 'cannot be '// &
                    "'partitioned' where foundation_pressure is 'local': springs under each "// &
                    'pressure have no equations of their own')
   end subroutine read_model_case
+
+  !> Whether strips side by side have their own stiffness.
+  pure logical function has_strips(self) result(has)
+    class(model_case_type), intent(in) :: self !! what `&model` asks for
+    has = allocated(self%strip_stiffness)
+    if (has) has = size(self%strip_stiffness) > 0
+  end function has_strips
 
   !> Whether top foil and bumps have meshes of their own.
   elemental logical function meshes_foils(foil) result(meshes)

@@ -3,6 +3,7 @@
 module gfb_motion_cases
   use gfb_kinds, only: wp
   use gfb_units, only: pi
+  use gfb_bearing_case, only: needs_journal
   use gfb_case_keys, only: case_keys_type, no_default, unless, from_to, not_negative, positive, &
                            any_value, longest_list, at_least, between
   use gfb_maxwell_arm, only: maxwell_arm_type
@@ -152,14 +153,18 @@ contains
   end subroutine read_foil_damping_case
 
   !> Reads the group; without it no rotor is on the bearing.
-  subroutine read_rotor_case(keys, rotor, analysis)
+  subroutine read_rotor_case(keys, rotor, thrust, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(rotor_case_type), intent(out) :: rotor !! what `&rotor` says
+    logical, intent(in) :: thrust !! the pads are sectors of a ring
     integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    character(len=:), allocatable :: misplaced
 
+    misplaced = misplaced_group(analysis, any(analysis == &
+                [analysis_linear_dynamics, analysis_transient, analysis_periodic]))
+    if (misplaced == '') misplaced = unless(.not. thrust, needs_journal)
     call keys%start_group(group, optional=.true., present_in_file=rotor%present, &
-                          misplaced=misplaced_group(analysis, any(analysis == &
-                          [analysis_linear_dynamics, analysis_transient, analysis_periodic])))
+                          misplaced=misplaced)
     call keys%real_key(mass, rotor%mass, 'kg', &
                        'mass that this bearing carries: half of a rotor on two; the load is '// &
                        'given apart from it', positive, .true.)

@@ -2,12 +2,13 @@
 module gfb_operation_case
   use gfb_kinds, only: wp, most_pads
   use gfb_units, only: rpm
-  use gfb_case_keys, only: case_keys_type, no_default, any_value
+  use gfb_bearing_case, only: bearing_case_type, kind_journal, needs_journal, needs_thrust
+  use gfb_case_keys, only: case_keys_type, no_default, any_value, positive, unless
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
   implicit none (type, external)
   private
-  public :: operation_case_type, read_operation_case, angular_speed
+  public :: operation_case_type, read_operation_case, angular_speed, size_of_gap
 
   character(len=*), parameter, public :: other_sense = &
     'must not be negative: the shaft turns in +theta. For the other sense mirror the scene: '// &
@@ -20,10 +21,15 @@ module gfb_operation_case
     real(wp) :: load(2) = 0.0_wp          !! external force on the shaft, x and y [N]
     real(wp) :: eccentricity(2) = 0.0_wp  !! of the sleeve relative to the shaft, x and y [m]
     real(wp) :: tilt(2) = 0.0_wp          !! of the sleeve against the shaft, about x and y [rad]
+    real(wp) :: axial_load = 0.0_wp       !! that presses a runner on its pads [N]
+    real(wp) :: axial_gap = 0.0_wp        !! from their land to the runner, on the axis [m]
+    real(wp) :: moment(2) = 0.0_wp        !! external, on the shaft of a thrust bearing [N m]
     real(wp), allocatable :: leading_edge_lift(:) !! of each pad or all, to start with, z = 0 [m]
     real(wp), allocatable :: leading_edge_lift_edge(:) !! the same at the ends [m]
     logical :: load_given = .false.
     logical :: eccentricity_given = .false.
+    logical :: axial_gap_given = .false.
+    logical :: moment_given = .false. !! the tilts are unknown
     logical :: tilt_is_sought = .false. !! a tilt is looked for, beginning with `tilt`
   contains
     procedure :: asks_for_lift
@@ -42,12 +48,18 @@ contains
   end function asks_for_lift
 
   !> Reads the group; what it must hold depends on the analysis.
-  subroutine read_operation_case(keys, operation, analysis, may_rest)
+  subroutine read_operation_case(keys, operation, bearing, analysis, may_rest)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(operation_case_type), intent(out) :: operation !! what `&operation` asks for
-    integer, intent(in) :: analysis  !! 0 where it is not known
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    integer, intent(in) :: analysis  !! of the state, 0 where it is not known
     logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
+    character(len=:), allocatable :: journal, thrust !! why keys of the kind have no use
+    logical :: ring
 
+    ring = bearing%is_thrust()
+    journal = unless(.not. ring, needs_journal)
+    thrust = unless(bearing%kind /= kind_journal, needs_thrust)
     call keys%start_group('operation', required=is_bearing(analysis), &
                           optional=is_structure(analysis), &
                           misplaced=misplaced_group(analysis, is_bearing(analysis)))
@@ -59,25 +71,56 @@ contains
                    may_rest), 'must be positive: a film without speed carries no load; '// &
                    '&shaft_contact does')
     call keys%real_vector_key('load', operation%load, 'N', 'external force on the shaft, x and y', &
-                              required=analysis == analysis_equilibrium, &
-                              default='required for an equilibrium', given=operation%load_given)
+                              required=analysis == analysis_equilibrium .and. .not. ring, &
+                              default='required for an equilibrium', given=operation%load_given, &
+                              useless=journal)
     call keys%real_vector_key('eccentricity', operation%eccentricity, 'm', &
                               'position of the sleeve relative to the shaft, x and y: fixed, '// &
                               'or where the search for an equilibrium starts', &
-                              required=analysis == analysis_fixed_position, &
+                              required=analysis == analysis_fixed_position .and. .not. ring, &
                               default='required for a fixed position', &
-                              given=operation%eccentricity_given)
+                              given=operation%eccentricity_given, useless=journal)
+    call keys%real_key('axial_load', operation%axial_load, 'N', 'force that presses the runner '// &
+                       'of a thrust bearing on its pads', positive, &
+                       ring .and. analysis == analysis_equilibrium, default=no_default, &
+                       useless=thrust)
+    call keys%real_key('axial_gap', operation%axial_gap, 'm', 'gap from the land of its pads '// &
+                       'to its runner, on the axis, foils at rest: held, or where the search '// &
+                       'for an equilibrium starts', positive, &
+                       ring .and. analysis == analysis_fixed_position, default=no_default, &
+                       given=operation%axial_gap_given, useless=thrust)
+    call keys%real_vector_key('moment', operation%moment, 'N m', 'external moment on the shaft '// &
+                              'of a thrust bearing, about x and y; with it the tilt is found, '// &
+                              'and `tilt` is where the search starts', any_value, .false., &
+                              default=no_default, given=operation%moment_given, useless=thrust)
+    call keys%rule('operation', 'moment', operation%moment_given .and. &
+                   analysis == analysis_fixed_position, 'needs axial_load: at a held gap the '// &
+                   'tilt is held, too')
     call keys%real_vector_key('tilt', operation%tilt, 'rad', &
                               'rotation of the sleeve relative to the shaft, about x and y')
     call keys%real_list_key('leading_edge_lift', operation%leading_edge_lift, most_pads, 'm', &
                             'look for the equilibrium whose top foil''s free leading edge is '// &
                             'lifted this far towards the shaft at the midplane, or, negative, '// &
                             'away from it; of several pads each one''s, or one value for all', &
-                            any_value, required=.false., default=no_default)
+                            any_value, required=.false., default=no_default, useless=journal)
     call keys%real_list_key('leading_edge_lift_edge', operation%leading_edge_lift_edge, most_pads, &
                             'm', 'the same at the ends of the bearing', any_value, &
-                            required=.false., default=no_default)
+                            required=.false., default=no_default, useless=journal)
   end subroutine read_operation_case
+
+  !> Size of a thrust bearing's gap: that asked for, or half of its ramp, or that of a bearing
+  !> number 6 mu Omega/p_a (R/h)^2 of 10 where it has none.
+  pure real(wp) function size_of_gap(bearing, operation, viscosity, ambient_pressure) result(gap)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` and `&ramp` ask for
+    type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
+    real(wp), intent(in) :: viscosity, ambient_pressure !! of the gas [Pa s], [Pa]
+    real(wp), parameter :: usual_number = 10.0_wp
+
+    gap = max(operation%axial_gap, 0.5_wp*bearing%ramp_height)
+    if (gap > 0.0_wp .or. .not. ambient_pressure > 0.0_wp) return
+    gap = bearing%radius*sqrt(6.0_wp*viscosity*angular_speed(operation%speed_rpm)/ &
+                              (usual_number*ambient_pressure))
+  end function size_of_gap
 
   !> Angular speed [rad/s].
   elemental real(wp) function angular_speed(speed_rpm) result(speed)

@@ -73,8 +73,10 @@ module gfb_study_cases
     'minimum_pressure', 'film_temperature', 'maximum_film_temperature', 'top_foil_temperature', &
     'maximum_top_foil_temperature', 'shaft_temperature', 'sleeve_temperature', &
     'inlet_temperature', 'cooling_outlet_temperature', 'heat_to_shaft', 'heat_to_top_foil', &
-    'heat_through_bumps', 'heat_to_channel', 'heat_by_gas', 'running_clearance']
+    'heat_through_bumps', 'heat_to_channel', 'heat_by_gas', 'running_clearance', 'axial_gap', &
+    'axial_force']
   integer, parameter, public :: quantities_without_heat = 12 !! the first ones
+  integer, parameter, public :: quantities_of_rings = 2 !! the last ones
 
   !> A key by which results are derived.
   type, public :: parameter_type

@@ -3,7 +3,8 @@
 module gfb_sweep_case
   use gfb_kinds, only: wp
   use gfb_units, only: degree
-  use gfb_case_keys, only: case_keys_type, longest_list, any_value, not_negative, rule_type
+  use gfb_case_keys, only: case_keys_type, longest_list, any_value, not_negative, rule_type, &
+                           positive
   use gfb_operation_case, only: operation_case_type, other_sense
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
@@ -18,14 +19,16 @@ module gfb_sweep_case
   integer, parameter, public :: sweep_eccentricity_x = 5
   integer, parameter, public :: sweep_eccentricity_y = 6
   integer, parameter, public :: sweep_load_angle = 7
-  integer, parameter, public :: sweep_keys = 8 !! of the case file; each value is another bearing
+  integer, parameter, public :: sweep_axial_load = 8
+  integer, parameter, public :: sweep_axial_gap = 9
+  integer, parameter, public :: sweep_keys = 10 !! of the case file; each value is another bearing
 
   character(len=*), parameter, public :: parameter_words(*) = &
     [character(len=14) :: 'load', 'speed_rpm', 'tilt_x', 'tilt_y', 'eccentricity_x', &
-                          'eccentricity_y', 'load_angle']
-  character(len=*), parameter :: units(0:8) = [character(len=18) :: &
+                          'eccentricity_y', 'load_angle', 'axial_load', 'axial_gap']
+  character(len=*), parameter :: units(0:10) = [character(len=18) :: &
                                                'that of parameter', 'N', 'rpm', 'rad', 'rad', &
-                                               'm', 'm', 'deg', 'that of parameter']
+                                               'm', 'm', 'deg', 'N', 'm', 'that of parameter']
 
   integer, parameter, public :: every_element = -1 !! of a list
 
@@ -64,9 +67,11 @@ contains
     call keys%choice_or_keys_key('parameter', sweep%parameter, parameter_words, sweep%keys, &
                                  'quantity that is varied; load: its magnitude, in the '// &
                                  'direction of `load`; load_angle: its direction from x '// &
-                                 'towards y, its magnitude kept')
+                                 'towards y, its magnitude kept; axial_load and '// &
+                                 'axial_gap: of a thrust bearing')
     rule = any_value
     if (sweep%parameter == sweep_load) rule = not_negative
+    if (any(sweep%parameter == [sweep_axial_load, sweep_axial_gap])) rule = positive
     call keys%real_list_key('values', sweep%values, longest_list, trim(units(sweep%parameter)), &
                             'values of the parameter, in the order in which they are computed', &
                             rule)
@@ -174,6 +179,10 @@ contains
         there%eccentricity(1) = value
       case (sweep_eccentricity_y)
         there%eccentricity(2) = value
+      case (sweep_axial_load)
+        there%axial_load = value
+      case (sweep_axial_gap)
+        there%axial_gap = value
       case default
         return ! a misspelt parameter, complained about, or keys: the scene has their value
       end select

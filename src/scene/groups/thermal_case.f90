@@ -1,7 +1,9 @@
 !> `&thermal`: the heat of the film, and where it goes.
 module gfb_thermal_case
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, between, from_to, no_default, not_negative, positive
+  use gfb_bearing_case, only: needs_journal
+  use gfb_case_keys, only: case_keys_type, between, from_to, no_default, not_negative, positive, &
+                           unless
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_gas_case, only: gas_case_type, usual_temperature, follow_ambient
   use gfb_heated_film, only: wall_given, wall_conductance, wall_fin
@@ -65,16 +67,20 @@ module gfb_thermal_case
 contains
 
   !> Reads the group; the gas gets the viscosity that its law has at ambient temperature.
-  subroutine read_thermal_case(keys, thermal, gas, foil, analysis)
+  subroutine read_thermal_case(keys, thermal, gas, foil, thrust, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(thermal_case_type), intent(out) :: thermal !! what `&thermal` asks for
     type(gas_case_type), intent(inout) :: gas !! what `&gas` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    logical, intent(in) :: thrust !! the pads are sectors of a ring
     integer, intent(in) :: analysis !! 0 where it is not known
+    character(len=:), allocatable :: misplaced
     logical :: given(3)
 
+    misplaced = misplaced_group(analysis, is_bearing(analysis))
+    if (misplaced == '') misplaced = unless(.not. thrust, needs_journal)
     call keys%start_group('thermal', optional=.true., present_in_file=thermal%present, &
-                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
+                          misplaced=misplaced)
     if (gas%temperature > 0.0_wp) thermal%ambient_temperature = gas%temperature
     call keys%real_key('ambient_temperature', thermal%ambient_temperature, 'K', 'temperature '// &
                        'of the gas that is drawn in', from_to(coldest, hottest), &

@@ -80,7 +80,8 @@ contains
   end subroutine real_key
 
   !> A fixed number of real numbers; all of them must be given.
-  subroutine real_vector_key(self, name, values, unit, meaning, rule, required, default, given)
+  subroutine real_vector_key(self, name, values, unit, meaning, rule, required, default, given, &
+                             useless)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), intent(inout) :: values(:) !! [their unit] the defaults on entry
@@ -89,7 +90,10 @@ contains
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
+    character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
 
+    if (present(given)) given = .false.
+    if (self%has_no_use(name, meaning, useless)) return
     call self%describe(name, 'real('//text(size(values))//')', unit, meaning)
     call self%take_numbers(size(values), values, rule, required, default, given)
   end subroutine real_vector_key

@@ -6,8 +6,8 @@ module gfb_answer_numbers
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_film_load, only: film_forces
-  use gfb_film_surface, only: journal_motions, journal_coordinates
-  use gfb_gas_film, only: film_drag, film_drag_rates, film_moment
+  use gfb_film_surface, only: film_surface_type, axial_coordinate, translations
+  use gfb_film_measures, only: film_drag, film_drag_rates, film_moment
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
@@ -23,6 +23,7 @@ module gfb_answer_numbers
 
   integer, parameter, public :: place_e = 1, place_force = 3, place_torque = 7, place_speed = 8 !! first numbers of each kind
   integer, parameter, public :: place_extremes = 9, place_heat = 12, numbers = 25
+  integer, parameter :: forces = place_torque - place_force
   integer, parameter :: extremes = 3 !! smallest gap, largest and smallest pressure
   !> numbers of heat: temperatures
   integer, parameter :: of_film = place_heat, of_hottest_film = of_film + 1, of_top_foil = of_film + 2, of_hottest_foil = of_film + 3, &
@@ -93,7 +94,7 @@ contains
     end do
   end function mean_temperature
 
-  !> Eccentricity [m], forces and torques on the sleeve [N], [N m], friction torque [N m], speed [rad/s], the values
+  !> Eccentricity, or of a ring e_z and 0 [m], forces and torques, see `coordinates_of` [N], [N m], friction torque [N m], speed [rad/s], the values
   !> at the extreme nodes [m], [Pa]; with heat temperatures [K], its ways [W], the clearance that is left [m].
   function measure(bearing, unknown, point, nodes) result(number)
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
@@ -111,7 +112,7 @@ contains
     solid = bearing%solid_pressure(unknown)
     number = 0.0_wp
     force = bearing%local_force(unknown, gap)
-    number(place_force:place_torque - 1) = force(journal_coordinates)
+    number(place_force:place_torque - 1) = force(coordinates_of(bearing%pad(1)%film%surface))
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
         if (.not. bearing%heat%present) number(place_torque) = number(place_torque) + pad%film%surface%radius* &
@@ -126,10 +127,21 @@ contains
       if (nodes%node(i) > 0) number(place_extremes + i - 1) = pressure(nodes%node(i))
     end do
     number = sum_over_ranks(number)
-    number(place_e:place_e + 1) = here%place(:2)
+    associate (of_force => coordinates_of(bearing%pad(1)%film%surface))
+      number(place_e:place_e + 1) = here%place(of_force(:2))
+    end associate
     number(place_speed) = point%speed
     if (bearing%heat%present) call measure_heat(bearing, here, unknown, gap, number)
   end function measure
+
+  !> The shaft's coordinates whose forces are numbers: F_x, F_y, M_x, M_y of a journal; of a ring F_z in F_x' place, and F_y is 0.
+  pure function coordinates_of(surface) result(coordinate)
+    type(film_surface_type), intent(in) :: surface !! that the film lies on
+    integer :: coordinate(forces)
+
+    coordinate = [1, 2, 4, 5]
+    if (surface%sine > 0.0_wp) coordinate(1) = axial_coordinate
+  end function coordinates_of
 
   !> Numbers of heat, and the film's share of the friction torque. Heat that the gas carries is what is left: energy closes.
   subroutine measure_heat(bearing, here, unknown, gap, number)
@@ -168,7 +180,7 @@ contains
     gradient = 0.0_wp
     by_gap = 0.0_wp
     if (bearing%floats .and. bearing%last_rank) then
-      do i = 1, 2
+      do i = 1, count(bearing%coordinate <= translations)
         gradient(bearing%first_shaft + i, place_e + i - 1) = 1.0_wp
       end do
     end if
@@ -202,10 +214,11 @@ contains
     type(pad_type), intent(in) :: pad
     real(wp), intent(in) :: gap(:) !! at its nodes [m]
     real(wp), intent(inout) :: by_unknown(:, :), by_gap(:, :) !! (pad's unknowns or nodes, numbers)
-    integer :: k
+    integer :: k, coordinate(forces)
 
-    do k = 1, journal_motions
-      associate (weight => pad%film%force_weight(journal_coordinates(k), :))
+    coordinate = coordinates_of(pad%film%surface)
+    do k = 1, forces
+      associate (weight => pad%film%force_weight(coordinate(k), :))
         by_unknown(:size(gap), place_force + k - 1) = weight
         by_gap(:, place_force + k - 1) = weight*contact_pressure_rate(pad%contact, gap)
       end associate
@@ -220,7 +233,7 @@ contains
     real(wp), intent(in) :: gap(:)     !! at the pad's nodes [m]
     real(wp), intent(inout) :: gradient(:, :), by_gap(:, :) !! (bearing's unknowns or pad's nodes, numbers)
     real(wp), parameter :: part = 1.0e-3_wp ! of the clearance, that the shaft is moved by
-    real(wp) :: by_pressure(size(gap)), by_node(size(gap)), area(size(gap)), step
+    real(wp) :: by_pressure(size(gap)), by_node(size(gap)), area(size(gap)), step, lever(size(bearing%coordinate))
     type(operating_point_type) :: ahead, behind
     integer :: k
 
@@ -231,13 +244,15 @@ contains
       end associate
       area = nodal_areas(pad)
       by_gap(:, place_torque) = film%surface%radius*(by_node + pad%contact%friction*area*contact_pressure_rate(pad%contact, gap))
-      if (.not. bearing%floats) return
-      step = part*film%clearance
-      do k = 1, 2
+      lever = bearing%levers()
+      do k = 1, size(bearing%coordinate) ! none of a shaft that is fixed
+        step = part*film%clearance/lever(k)
         ahead = bearing%position(unknown)
         behind = ahead
-        ahead%place(k) = ahead%place(k) + step
-        behind%place(k) = behind%place(k) - step
+        associate (forwards => ahead%place(bearing%coordinate(k)), backwards => behind%place(bearing%coordinate(k)))
+          forwards = forwards + step
+          backwards = backwards - step
+        end associate
         associate (by_shaft => gradient(bearing%first_shaft + k, place_torque))
           by_shaft = by_shaft + film%surface%radius*(film_drag(film, pressure, gap, ahead) &
                                              - film_drag(film, pressure, gap, behind))/(2.0_wp*step)
@@ -461,9 +476,9 @@ contains
         end associate
       end if
       if (.not. bearing%floats) cycle
-      do k = 1, 2
+      do k = 1, size(bearing%coordinate)
         associate (mine => gradient(bearing%first_shaft + k, :))
-          mine = mine + pad%film%motion(k, node)*by_gap(node, :)
+          mine = mine + pad%film%motion(bearing%coordinate(k), node)*by_gap(node, :)
         end associate
       end do
     end do

@@ -18,6 +18,7 @@ module gfb_sensitivity
   use gfb_study_cases, only: parameter_type, quantity_words
   use gfb_sweep_case, only: swept_key_type, swept_keys
   use gfb_operation_case, only: angular_speed
+  use gfb_film_surface, only: translations
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
@@ -117,13 +118,17 @@ contains
     real(wp), intent(out) :: rate(:, :)            !! (quantities, numbers)
     real(wp) :: square
     integer, parameter :: attitude = 3, power = 9, extremes = 10 !! among the quantities
-    integer :: k
+    integer :: k, axial
 
     allocate (value(size(rate, 1)))
+    axial = size(value) - 1
     rate = 0.0_wp
     value(:2) = number(place_e:place_e + 1)
     value(attitude + 1:power - 1) = number(place_force:place_torque)
-    value(extremes:) = number(place_extremes:)
+    value(extremes:axial - 1) = number(place_extremes:)
+    value(axial:) = [-number(place_e), number(place_force)] ! of a ring
+    rate(axial, place_e) = -1.0_wp
+    rate(axial + 1, place_force) = 1.0_wp
     do k = 1, 2
       rate(k, place_e + k - 1) = 1.0_wp
     end do
@@ -335,7 +340,7 @@ contains
     value = parameter%value
     if (parameter%key%group == 'operation') then
       value = point%speed/angular_speed(1.0_wp)
-      if (parameter%key%name == 'load') value = norm2(point%load(:2))
+      if (parameter%key%name == 'load') value = norm2(point%load(:translations))
     else if (present(at) .and. allocated(scene%sweep%keys)) then
       list = swept_keys(scene%sweep)
       do i = 1, size(list)
@@ -396,7 +401,7 @@ contains
 
     point = bearing%point
     if (parameter%key%name == 'load') then
-      point%load(:2) = point%load(:2)*(value/norm2(point%load(:2)))
+      point%load(:translations) = point%load(:translations)*(value/norm2(point%load(:translations)))
     else
       point%speed = angular_speed(value)
     end if

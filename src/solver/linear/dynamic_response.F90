@@ -1,8 +1,8 @@
 #include "gfb_petsc.h"
 !> How the film's force and torque follow a vibration of the shaft, at an answer.
 !>
-!> The bearing's equations in time are \( f(x, q) + \frac{d}{dt} c(x, q) = 0 \), with the shaft's
-!> coordinates \( q = (e_x, e_y, \phi_x, \phi_y) \) given. A motion \( q' e^{i \omega t} \) is answered by
+!> The bearing's equations in time are \( f(x, q) + \frac{d}{dt} c(x, q) = 0 \), with those of the shaft's
+!> coordinates q given that move the film: \( (e_x, e_y, \phi_x, \phi_y) \) of a journal, \( (e_z, \phi_x, \phi_y) \) of a runner. A motion \( q' e^{i \omega t} \) is answered by
 !>
 !> $$ (f_x + i \omega c_x) x' = -(f_q + i \omega c_q) q', $$
 !>
@@ -21,9 +21,11 @@
 module gfb_dynamic_response
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_units, only: turn
   use gfb_bearing_system, only: bearing_system_type
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_film_surface, only: journal_motions, journal_coordinates
+  use gfb_film_surface, only: shaft_coordinates, all_translations => translations
+  use gfb_film_load, only: acts_on
   use gfb_pad, only: pad_type
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_contacts_in_motion, only: stick_contacts
@@ -39,12 +41,12 @@ module gfb_dynamic_response
   public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, take_over_counts, response_failure, &
             factor_part, solve_part, forces_of, destroy_response
 
-  !> of a journal's motions
+  !> Of a journal's motions.
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
 
   !> The equations of motions with one symmetry about z = 0, or of all.
   type :: part_type
-    integer, allocatable :: coordinate(:) !! of the journal's motions, those that have it
+    integer, allocatable :: coordinate(:) !! of the response's motions, those that have it
     real(wp), allocatable :: weight(:, :) !! (coordinates, film nodes) B_j dA, this rank's [m2], [m3]
     logical, allocatable :: kept(:)       !! owned unknowns that such a motion has
     type(complex_factors_type) :: factors
@@ -55,9 +57,10 @@ module gfb_dynamic_response
     integer :: factorizations = 0 !! so far
     integer :: enlargements = 0   !! of the factors' workspace
     integer :: status = 0         !! of the last factors: MUMPS' INFOG(1), negative where there are none
+    integer, allocatable :: motion(:) !! of the shaft's coordinates, those that move the film
     type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
-    type(tVec) :: steady_column(journal_motions), squeeze_column(journal_motions)
+    type(tVec) :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates) !! of the motions, the first ones
     type(tVec) :: one, other, rise(4) !! work space
     type(bearing_system_type), allocatable :: opposite_bearing !! of tilts, where its foil is another
     type(dynamic_response_type), allocatable :: opposite       !! of that
@@ -66,24 +69,30 @@ module gfb_dynamic_response
 
 contains
 
-  !> \( B_j \, dA \) of the shaft's coordinates at the film nodes of all pads; torques are those
-  !> on the shaft.
+  !> \( B_j \, dA \) of motions at the film nodes of all pads.
   pure function motion_weights(bearing, coordinate) result(weight)
     type(bearing_system_type), intent(in) :: bearing !! that vibrates
-    integer, intent(in) :: coordinate(:) !! of the shaft; on half the width of one symmetry, or all
+    integer, intent(in) :: coordinate(:) !! of the motions; on half the width of one symmetry, or all
     real(wp) :: weight(size(coordinate), bearing%film_nodes()) !! this rank's [m2], [m3]
-    integer :: i
+    integer, allocatable :: moved(:)
+    integer :: i, k
 
+    moved = bearing%pad(1)%film%surface%motions()
+    moved = moved(coordinate)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
         if (against_mirror(bearing, coordinate)) then
-          weight(:, pad%first_node + 1:pad%last_node) = -film%half_torque_weight
+          weight(:, pad%first_node + 1:pad%last_node) = -film%part_torque_weight
         else
-          weight(:, pad%first_node + 1:pad%last_node) = film%force_weight(journal_coordinates(coordinate), :)
+          do k = 1, size(coordinate)
+            associate (of_motion => weight(k, pad%first_node + 1:pad%last_node), j => moved(k))
+              of_motion = acts_on(j)*film%force_weight(j, :)
+              if (pad%whole%repeats > 1 .and. j > all_translations) of_motion = acts_on(j)*film%part_torque_weight(j - all_translations, :)
+            end associate
+          end do
         end if
       end associate
     end do
-    if (size(coordinate) > size(tilts)) weight(tilts, :) = -weight(tilts, :)
   end function motion_weights
 
   !> 1 where such a motion has a local unknown of the bearing, else 0; the shaft's it never has.
@@ -209,11 +218,12 @@ contains
     do k = 1, size(response%rise)
       PetscCallA(VecDuplicate(bearing%state, response%rise(k), ierr))
     end do
-    do k = 1, journal_motions
+    response%motion = bearing%pad(1)%film%surface%motions()
+    do k = 1, size(response%motion)
       PetscCallA(VecDuplicate(bearing%state, response%steady_column(k), ierr))
       PetscCallA(VecDuplicate(bearing%state, response%squeeze_column(k), ierr))
-      call bearing%shaft_column(journal_coordinates(k), response%steady_column(k))
-      call squeeze_column(bearing, journal_coordinates(k), response%squeeze_column(k))
+      call bearing%shaft_column(response%motion(k), response%steady_column(k))
+      call squeeze_column(bearing, response%motion(k), response%squeeze_column(k))
     end do
     call measure_asperities(bearing, response%solid_rate)
     call create_parts(bearing, response)
@@ -271,7 +281,7 @@ contains
       if (whole%opposite) then
         call create_part(bearing, steady, tilts, .true., part(1))
       else if (.not. whole%half) then
-        call create_part(bearing, steady, [translations, tilts], .true., part(1))
+        call create_part(bearing, steady, [(i, i=1, size(response%motion))], .true., part(1))
       else
         call create_part(bearing, steady, translations, .true., part(1))
       end if
@@ -329,16 +339,15 @@ contains
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
     complex(wp), intent(in) :: rate !! lambda, i omega for vibrations; with a loss factor for these alone [1/s]
-    !> (force, motion) in the order e_x, e_y, phi_x, phi_y; 0 by symmetry [SI]
-    complex(wp), intent(out) :: coefficient(journal_motions, journal_motions)
+    complex(wp), intent(out) :: coefficient(:, :) !! (force, motion) in the order of the response's motions; 0 by symmetry [SI]
     logical, intent(out) :: found !! all of them; else a matrix cannot be factorized
     logical, intent(in), optional :: only_translations !! tilts are not asked for
-    complex(wp) :: other(journal_motions, journal_motions)
+    complex(wp) :: other(size(coefficient, 1), size(coefficient, 2))
     integer :: i, wanted
 
     coefficient = 0.0_wp
     found = .false.
-    wanted = journal_motions
+    wanted = size(response%motion)
     if (present(only_translations)) wanted = merge(size(translations), wanted, only_translations)
     call combine(response%equations, rate)
     do i = 1, size(response%part)
@@ -347,7 +356,8 @@ contains
       if (found) call solve_part(bearing, response, rate, wanted, response%part(i), coefficient, found)
       if (.not. found) return
     end do
-    if (.not. allocated(response%opposite) .or. wanted < journal_motions) return
+    if (bearing%pad(1)%whole%repeats > 1) call add_turned_pads(bearing%pad(1)%whole%repeats, coefficient)
+    if (.not. allocated(response%opposite) .or. wanted < size(response%motion)) return
     associate (opposite => response%opposite)
       call find_coefficients(response%opposite_bearing, opposite, rate, other, found)
       coefficient(tilts, tilts) = other(tilts, tilts)
@@ -376,7 +386,7 @@ contains
     complex(wp), intent(out) :: value(:, :) !! (force, motion) Z of the part's coordinates [SI]
     complex(wp), intent(out) :: slope(:, :) !! its derivative [SI]
     logical, intent(out) :: found !! else the matrix cannot be factorized
-    complex(wp), dimension(journal_motions, journal_motions) :: z, dz
+    complex(wp), dimension(size(response%motion), size(response%motion)) :: z, dz
 
     z = 0.0_wp
     dz = 0.0_wp
@@ -385,11 +395,36 @@ contains
     if (.not. found) return
     call combine_rate(response%equations, rate)
     associate (part => response%part(number))
-      call solve_part(bearing, response, rate, journal_motions, part, z, found, dz)
+      call solve_part(bearing, response, rate, size(response%motion), part, z, found, dz)
+      if (bearing%pad(1)%whole%repeats > 1) then
+        call add_turned_pads(bearing%pad(1)%whole%repeats, z)
+        call add_turned_pads(bearing%pad(1)%whole%repeats, dz)
+      end if
       value = z(part%coordinate, part%coordinate)
       slope = dz(part%coordinate, part%coordinate)
     end associate
   end subroutine find_sample
+
+  !> Makes N times the coefficients of one pad those of N, each turned by a part of the circle: \( \sum_k T_k^T Z T_k \), with
+  !> tilts turned by \( T_k \).
+  pure subroutine add_turned_pads(pads, coefficient)
+    integer, intent(in) :: pads !! N, equal ones
+    complex(wp), intent(inout) :: coefficient(:, :) !! of e_z, phi_x, phi_y [SI]
+    complex(wp) :: one(size(coefficient, 1), size(coefficient, 1))
+    real(wp) :: turned(size(coefficient, 1), size(coefficient, 1)), angle
+    integer :: k
+
+    one = coefficient/pads
+    coefficient = 0.0_wp
+    turned = 0.0_wp
+    turned(1, 1) = 1.0_wp
+    do k = 0, pads - 1
+      angle = turn*real(k, wp)/real(pads, wp)
+      turned(2:, 2) = [cos(angle), -sin(angle)]
+      turned(2:, 3) = [sin(angle), cos(angle)]
+      coefficient = coefficient + matmul(transpose(turned), matmul(one, turned))
+    end do
+  end subroutine add_turned_pads
 
   !> Why the last coefficients were not found.
   function response_failure(response) result(words)
@@ -491,7 +526,7 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
         if (.not. pad%contact%present) cycle
-        call add_asperities(pad, response%solid_rate(first:last), coordinate, motion, value(pad%first + 1:pad%last), &
+        call add_asperities(pad, response%solid_rate(first:last), response%motion(coordinate), motion, value(pad%first + 1:pad%last), &
                             pressure(first:last))
       end associate
     end do
@@ -502,7 +537,7 @@ contains
   pure subroutine add_asperities(pad, solid_rate, coordinate, motion, value, pressure)
     type(pad_type), intent(in) :: pad
     real(wp), intent(in) :: solid_rate(:) !! slope of their pressure over the gap [Pa/m]
-    integer, intent(in) :: coordinate
+    integer, intent(in) :: coordinate !! of the shaft
     real(wp), intent(in) :: motion   !! [m], [rad]
     real(wp), intent(in) :: value(:) !! minus the change of the pad's unknowns, in SI
     real(wp), intent(inout) :: pressure(:) !! at the pad's nodes [Pa]
@@ -510,7 +545,7 @@ contains
     integer :: node
 
     do node = 1, size(pressure)
-      gap = -motion*pad%film%motion(journal_coordinates(coordinate), node)
+      gap = -motion*pad%film%motion(coordinate, node)
       if (pad%foil%source(node) > 0) gap = gap + pad%foil%rate(node)*value(pad%foil%source(node))
       pressure(node) = pressure(node) + solid_rate(node)*gap
     end do
@@ -530,7 +565,7 @@ contains
     do i = 1, size(response%part)
       call destroy_complex_factors(response%part(i)%factors)
     end do
-    do i = 1, journal_motions
+    do i = 1, size(response%motion)
       PetscCallA(VecDestroy(response%steady_column(i), ierr))
       PetscCallA(VecDestroy(response%squeeze_column(i), ierr))
     end do

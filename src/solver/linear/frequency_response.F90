@@ -9,7 +9,6 @@ module gfb_frequency_response
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_film_surface, only: journal_motions
   use gfb_rational_response, only: rational_response_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_sample, take_over_counts
@@ -96,7 +95,7 @@ contains
     type(dynamic_response_type), intent(in) :: response !! whose motions they are
     type(frequency_response_type), intent(in) :: model  !! of it
     real(wp), intent(in) :: frequency !! [rad/s]
-    complex(wp) :: coefficient(journal_motions, journal_motions) !! (force, motion), 0 by symmetry [SI]
+    complex(wp) :: coefficient(size(response%motion), size(response%motion)) !! (force, motion), 0 by symmetry [SI]
     integer :: i
 
     coefficient = 0.0_wp

@@ -26,7 +26,7 @@ module gfb_rotor_pencil
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, this_rank
   use gfb_rotor, only: planar, rotor_type, motion_of, inertia_of, gyration_of, dynamic_matrix, inverse, cylindrical
-  use gfb_gas_film, only: square_integrals
+  use gfb_film_measures, only: square_integrals
   use gfb_bearing_system, only: bearing_system_type
   use gfb_complex_factors, only: complex_factors_type, solve_complex, keep_entries
   use gfb_petsc_kinds, only: pint

@@ -8,6 +8,7 @@
 !> into the top foil between rows. Crests are moved to where they approach it as on the smaller system.
 module gfb_answer_transfer
   use gfb_kinds, only: wp
+  use gfb_film_surface, only: shaft_coordinates
   use gfb_petsc_session, only: fetch_entries
   use gfb_film_mesh, only: find_film_place, find_interval
   use gfb_shell_geometry, only: node_unknowns
@@ -46,8 +47,10 @@ contains
     real(wp) :: share(corners, bearing%film_nodes())
     integer :: around(corners, bearing%film_nodes()), i, k
     type(foil_surface_type), allocatable :: surface(:), small_surface(:)
+    real(wp) :: place(shaft_coordinates)
 
     call small%get_unknowns(coarse)
+    place = small%shaft_place()
     unknown = 0.0_wp
     call find_film_places(small, bearing, around, share)
     surface = bearing%pad(1)%foil%surfaces()
@@ -55,7 +58,7 @@ contains
     if (size(surface) > 0 .and. size(small_surface) == size(surface)) then
       call bearing%put_pressure(merge(film_field(small, small%film_pressure(coarse), around, share), 0.0_wp, &
                                       [(bearing%pad(i)%mesh%owned, i=1, size(bearing%pad))]), unknown)
-      if (bearing%floats) unknown(bearing%first_shaft + 1:) = merge(small%eccentricity(), 0.0_wp, bearing%last_rank)
+      if (bearing%floats) unknown(bearing%first_shaft + 1:) = merge(place(bearing%coordinate), 0.0_wp, bearing%last_rank)
       do k = 1, size(bearing%pad)
         associate (from => small%pad(k), to => bearing%pad(k))
           do i = 1, size(surface)
@@ -82,7 +85,7 @@ contains
         call bearing%pad(k)%foil%estimate(unknown(bearing%pad(k)%first + 1:bearing%pad(k)%last))
       end do
       call bearing%put_pressure(film_field(small, small%film_pressure(coarse), around, share), unknown)
-      if (bearing%floats) unknown(bearing%first_shaft + 1:) = small%eccentricity()
+      if (bearing%floats) unknown(bearing%first_shaft + 1:) = place(bearing%coordinate)
       call bearing%set_unknowns(unknown)
     end if
     if (bearing%heat%present) call transfer_heat(small, coarse, around, share, bearing)

@@ -92,7 +92,7 @@ contains
     self%branch = [self%branch, new]
     associate (answer => new%answer, clearance => bearing%clearance)
       call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
-                           text(answer%eccentricity(1)/clearance, 5)//', '//text(answer%eccentricity(2)/clearance, 5)// &
+                           text(answer%place(1)/clearance, 5)//', '//text(answer%place(2)/clearance, 5)// &
                            '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
                            lifts(answer%trailing_edge_lift)//' um (midplane, ends)'//lifts_of_pads(answer%pad_lift))
     end associate

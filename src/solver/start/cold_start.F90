@@ -11,6 +11,7 @@ module gfb_cold_start
   use gfb_work_bound, only: gives_up
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
+  use gfb_film_surface, only: translations
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_heat_switch, only: add_heat
@@ -161,8 +162,9 @@ contains
 
     if (report%shaft_fixed) then
       words = 'lost before the shaft is released: '
-    else if (norm2(target%load(:2)) > 0.0_wp) then
-      words = 'lost at '//text(100.0_wp*norm2(report%reached%load(:2))/norm2(target%load(:2)), 3)//' % of the load: '
+    else if (norm2(target%load(:translations)) > 0.0_wp) then
+      words = 'lost at '//text(100.0_wp*norm2(report%reached%load(:translations))/norm2(target%load(:translations)), 3)// &
+              ' % of the load: '
     else
       words = 'lost: '
     end if

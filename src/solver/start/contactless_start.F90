@@ -1,11 +1,13 @@
 #include "gfb_petsc.h"
 !> The starts of a bearing whose foil touches nothing but the film: the load at once, at a fixed position
-!> from rest to speed and then with the shaft released, or with the shaft laid on its foil first.
+!> from rest to speed and then with the shaft released, or with the shaft laid on its foil first; of a thrust bearing
+!> at a held gap, and then with the runner released.
 module gfb_contactless_start
   use gfb_kinds, only: wp
   use gfb_units, only: pi
   use gfb_ending, only: path_lost
   use gfb_text, only: text
+  use gfb_film_surface, only: axial => axial_coordinate
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -14,10 +16,10 @@ module gfb_contactless_start
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, trial_settings, clearance_of, usual_eccentricity
   use gfb_saved_state, only: saved_state_type
-  use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at, room_at_rest
+  use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at, put_at_rest, room_at_rest
   implicit none (type)
   private
-  public :: try_from_rest, try_laid_down
+  public :: try_from_rest, try_laid_down, try_from_gap
 
   integer, parameter :: max_iterations = 10     !! of the load at once, which takes 4 to 9 where it helps
   integer, parameter :: galerkin_steps = 2      !! of a path, before SUPG is asked
@@ -25,6 +27,8 @@ module gfb_contactless_start
   real(wp), parameter :: behind_load = 0.1_wp   !! attitude of a shaft that is laid down; heavy loads leave 0 to 6 degrees [rad]
   real(wp), parameter :: deeper = 1.3_wp        !! over the one before [1]
   integer, parameter :: most_depths = 24        !! to 400 times the clearance
+  integer, parameter :: most_gaps = 8           !! held, on the way to the load
+  real(wp), parameter :: gap_step = 0.5_wp      !! logarithm of one held gap over the next, at most [1]
   real(wp), parameter :: coarse_peclet = 5.0_wp !! of a cell that is too large for Galerkin [1]
 
 contains
@@ -46,6 +50,83 @@ contains
       end if
     end associate
   end subroutine try_from_rest
+
+  !> The runner held at a gap at which its ramp bears most, 1.2 times the gap, or at that asked for where it is wider; from there to the gap asked
+  !> for, or released.
+  subroutine try_from_gap(problem, report)
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved
+    type(path_report_type), intent(out) :: report !! how it ended
+    type(operating_point_type) :: held
+    type(path_settings_type) :: downwards
+    type(saved_state_type) :: start
+
+    downwards = problem%settings
+    downwards%touch_down_gap = 0.0_wp
+    associate (bearing => problem%bearing, newton => problem%newton, target => problem%target)
+      held = target
+      held%place(axial) = min(-bearing%clearance*exp(gap_step), target%place(axial))
+      if (bearing%floats .and. target%place(axial) < 0.0_wp) held%place(axial) = target%place(axial)
+      call newton%log%detail('runner held at a gap of '//text(-held%place(axial), 4)//' m')
+      call put_at_rest(bearing, held)
+      call start%save(bearing)
+      call solve_at(bearing, newton, held, .true., downwards, report)
+      if (.not. report%converged()) then
+        call start%restore(bearing)
+        call follow_path(bearing, newton, held, 1.0_wp, downwards, report)
+      end if
+      if (report%converged() .and. .not. bearing%floats .and. held%place(axial) < target%place(axial)) then
+        call follow_path(bearing, newton, target, 1.0_wp, downwards, report)
+      end if
+      if (report%converged() .and. bearing%floats) then
+        call approach_load(bearing, newton, target, downwards, report)
+        call start%destroy()
+        call start%save(bearing)
+        call solve_at(bearing, newton, target, .false., problem%settings, report, max_iterations)
+        if (.not. report%converged()) then
+          call start%restore(bearing)
+          call release_shaft(bearing, newton, target, problem%settings, report)
+        end if
+      else
+        report%shaft_fixed = .true.
+      end if
+      call start%destroy()
+    end associate
+  end subroutine try_from_gap
+
+  !> From one held gap to another until the film carries about the load: its force is next to a power of the gap, found from the
+  !> last two. Newton's method leads from there to the load.
+  subroutine approach_load(bearing, newton, target, settings, report)
+    type(bearing_system_type), intent(inout) :: bearing !! with an answer at a held gap
+    type(newton_type), target, intent(inout) :: newton
+    type(operating_point_type), intent(in) :: target
+    type(path_settings_type), intent(in) :: settings
+    type(path_report_type), intent(inout) :: report
+    type(operating_point_type) :: next
+    type(saved_state_type) :: last
+    real(wp) :: force(film_forces), missing, before, change
+    real(wp) :: power ! of the gap, minus that of the force [1]
+    integer :: trial
+
+    power = 1.0_wp
+    do trial = 1, most_gaps
+      force = bearing%reaction()
+      missing = log(max(-target%load(axial)/max(force(axial), tiny(1.0_wp)), tiny(1.0_wp)))
+      if (abs(missing) < 0.5_wp*gap_step) exit
+      if (trial > 1) power = (before - missing)/change
+      if (.not. power > 0.0_wp) power = 1.0_wp
+      before = missing
+      change = min(max(missing/power, -gap_step), gap_step)
+      next = bearing%point
+      next%place(axial) = next%place(axial)*exp(-change)
+      call last%save(bearing)
+      call solve_at(bearing, newton, next, .true., settings, report)
+      if (.not. report%converged()) then
+        call last%restore(bearing)
+        exit
+      end if
+    end do
+    call last%destroy()
+  end subroutine approach_load
 
   !> Where the way to the load has ended with the shaft aside: lays it on its foil where the load presses it, deeper and deeper
   !> until the film carries that much, and releases it.

@@ -13,7 +13,8 @@ module gfb_start_list
   use gfb_saved_state, only: saved_state_type
   use gfb_newton, only: find_determinant_sign, newton_type, newton_report_type, solve_newton
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
-  use gfb_contactless_start, only: try_from_rest, try_laid_down
+  use gfb_film_surface, only: translations
+  use gfb_contactless_start, only: try_from_rest, try_laid_down, try_from_gap
   use gfb_soft_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_bearing_directions, only: has_free_edge, edge_lift
   use gfb_edge_start, only: resting, next_height, try_free_edge
@@ -35,6 +36,7 @@ module gfb_start_list
   integer, parameter, public :: start_released_late = 8
   integer, parameter, public :: start_lighter_load = 9
   integer, parameter, public :: start_near_foil = 10
+  integer, parameter, public :: start_from_gap = 11
   character(len=*), parameter :: names(*) = [character(len=64) :: &
                                              "the smaller system's answer", &
                                              "the end of the smaller system's search", &
@@ -45,7 +47,8 @@ module gfb_start_list
                                              "soft contacts, released early under a load", &
                                              "soft contacts, released after the shaft in growing steps", &
                                              "the free edge fixed where it rests, under a tenth of the load", &
-                                             "soft contacts, released before the shaft near the foil"]
+                                             "soft contacts, released before the shaft near the foil", &
+                                             "the runner held at a gap"]
 
   !> Newton's, after which no other start begins: more find a few more answers, and every refusal pays for them
   integer, parameter :: most_iterations = 800
@@ -96,7 +99,9 @@ contains
       if (problem%refused .and. problem%bearing%floats) first = [start_smaller_end]
     end if
     associate (bearing => problem%bearing, target => problem%target)
-      if (.not. bearing%has_contacts()) then
+      if (problem%scene%bearing%is_thrust()) then
+        starts = [start_from_gap]
+      else if (.not. bearing%has_contacts()) then
         starts = [start_from_rest]
         if (bearing%floats .and. norm2(target%load(:2)) > 0.0_wp .and. target%speed > 0.0_wp) starts = [starts, start_laid_down]
       else
@@ -148,6 +153,8 @@ contains
       call try_from_rest(problem, report)
     case (start_laid_down)
       call try_laid_down(problem, report)
+    case (start_from_gap)
+      call try_from_gap(problem, report)
     case (start_several_pads)
       call try_several_edges(problem, report, ends)
     case (start_edge_fixed)
@@ -294,7 +301,8 @@ contains
     type(operating_point_type), intent(in) :: target
     real(wp) :: distance
 
-    distance = norm2(report%reached%load(:2) - target%load(:2))/max(norm2(target%load(:2)), tiny(1.0_wp)) + &
+    distance = norm2(report%reached%load(:translations) - target%load(:translations))/ &
+      max(norm2(target%load(:translations)), tiny(1.0_wp)) + &
       abs(report%reached%speed - target%speed)/max(abs(target%speed), tiny(1.0_wp))
     if (report%shaft_fixed) distance = huge(1.0_wp)
   end function distance

@@ -7,14 +7,15 @@ module gfb_start_position
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bore_profile, only: bore_peak
-  use gfb_film_load, only: film_forces
+  use gfb_film_load, only: acts_on, film_forces
+  use gfb_film_surface, only: translations
   use gfb_solid_contact, only: contact_pressure
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   implicit none (type)
   private
-  public :: guess_position, place_shaft, find_position, release_shaft, solve_at
+  public :: guess_position, place_shaft, find_position, release_shaft, solve_at, put_at_rest
 
   real(wp), parameter :: start_attitude = 0.5_wp !! of a position that is not given [rad]
   real(wp), parameter, public :: room_at_rest = 0.75_wp  !! largest approach to the sleeve to begin with, over the clearance [1]
@@ -87,13 +88,15 @@ contains
     type(path_settings_type), intent(in) :: settings !! limits
     type(path_report_type), intent(out) :: report !! how it ended
     real(wp) :: force(film_forces), change
+    integer, allocatable :: along(:) ! of the shaft's coordinates, those that are forces
 
-    force = bearing%reaction()
+    force = acts_on*bearing%reaction()
     bearing%shaft_fixed = .false.
-    bearing%point%load(:2) = force(1:2)
+    bearing%point%load(bearing%coordinate) = force(bearing%coordinate)
     call newton%log%detail('shaft released, load from the reaction to its target')
-    change = norm2(target%load(:2) - force(1:2))
-    call follow_path(bearing, newton, target, 2.0_wp*norm2(force(1:2))/max(change, tiny(1.0_wp)), settings, report)
+    along = pack(bearing%coordinate, bearing%coordinate <= translations)
+    change = norm2(target%load(along) - force(along))
+    call follow_path(bearing, newton, target, 2.0_wp*norm2(force(along))/max(change, tiny(1.0_wp)), settings, report)
   end subroutine release_shaft
 
   !> A position with room for the shaft while the foil has not yet moved: the one asked for, or one

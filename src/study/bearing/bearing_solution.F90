@@ -3,6 +3,7 @@
 !> none.
 module gfb_bearing_solution
   use gfb_kinds, only: wp
+  use gfb_film_surface, only: axial_coordinate
   use gfb_units, only: pi, degree
   use gfb_errors, only: error_type
   use gfb_text, only: text
@@ -349,16 +350,16 @@ contains
       call log%tell(reason%words())
       if (has_stiff_edges(self%scene)) then
         call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do '// &
-                      'not deflect and may touch first; ''axial_mean'' in &model lets them')
+                      'not deflect and may touch first; '''// &
+                      trim(merge('radial_mean', 'axial_mean ', self%scene%bearing%is_thrust()))//''' in &model lets them')
       end if
       select case (reason%code)
       case (reason_fixed_shaft)
         call log%line('last state reached: tilt ('//text(point%place(4), 4)//', '// &
-                      text(point%place(5), 4)//') rad, film force ('//text(force(1), 5)//', '// &
-                      text(force(2), 5)//') N, '//thinnest_film(self%bearing))
+                      text(point%place(5), 4)//') rad, film force '//force_words(self%bearing, force)//', '// &
+                      thinnest_film(self%bearing))
       case (reason_no_equilibrium, reason_no_limit)
-        call log%line('last state reached: load ('//text(force(1), 5)//', '//text(force(2), 5)// &
-                      ') N, speed '//text(point%speed*30.0_wp/pi, 5)//' rpm, tilt ('// &
+        call log%line('last state reached: load '//force_words(self%bearing, force)//', speed '//text(point%speed*30.0_wp/pi, 5)//' rpm, tilt ('// &
                       text(point%place(4), 4)//', '//text(point%place(5), 4)//') rad, '// &
                       thinnest_film(self%bearing))
       case default
@@ -389,9 +390,20 @@ contains
       end associate
     end if
     place = largest_over_ranks(place)
-    words = 'film thinnest at theta = '//text(place(1)/degree, 4)//' deg, z = '// &
+    words = 'film thinnest at theta = '//text(place(1)/degree, 4)//' deg, '// &
+            trim(merge('r', 'z', bearing%pad(1)%film%surface%sine > 0.0_wp))//' = '// &
             text(place(2)*1.0e3_wp, 3)//' mm: '//text(smallest*1.0e6_wp, 3)//' um'
   end function thinnest_film
+
+  !> A force across a journal's axis, or along a runner's.
+  function force_words(bearing, force) result(words)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: force(:) !! of its film [N], [N m]
+    character(len=:), allocatable :: words
+
+    words = '('//text(force(1), 5)//', '//text(force(2), 5)//') N'
+    if (bearing%pad(1)%film%surface%sine > 0.0_wp) words = text(force(axial_coordinate), 5)//' N'
+  end function force_words
 
   !> Whether the edges of the film do not deflect: they are at ambient pressure.
   pure logical function has_stiff_edges(scene) result(has)

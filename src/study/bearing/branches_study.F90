@@ -129,7 +129,7 @@ contains
     call log%line('                        midplane    ends    midplane    ends    open %  smallest   modes  to change')
     do i = 1, size(order)
       associate (answer => search%branch(order(i))%answer)
-        write (line, '(i3, 2f10.5, f11.2, f8.2, f12.2, f8.2, f10.1, f10.3, a9, a11)') i, answer%eccentricity/clearance, &
+        write (line, '(i3, 2f10.5, f11.2, f8.2, f12.2, f8.2, f10.1, f10.3, a9, a11)') i, answer%place(:2)/clearance, &
           micrometres*answer%leading_edge_lift, micrometres*answer%trailing_edge_lift, 100.0_wp*answer%lifted_length, &
           micrometres*answer%minimum_gap, value_of(record%history(i)%quantity, 'stability'), &
           value_of(record%history(i)%quantity, 'stability_margin')

@@ -26,7 +26,8 @@ module gfb_dynamics
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type, conical
   use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes, rotor_mode_type, is_of_shaft, is_of_foil
-  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of, mode_numbers
+  use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of, mode_numbers, &
+                                 motion_names
   implicit none (type, external)
   private
   public :: find_dynamics, find_instability, mass_excess, find_whirl
@@ -107,7 +108,9 @@ contains
     integer :: i
 
     point%frequency = frequencies_at(scene%dynamics, bearing%point%speed)
-    allocate (point%coefficient(journal_motions, journal_motions, size(point%frequency)), source=(0.0_wp, 0.0_wp))
+    associate (motions => size(response%motion))
+      allocate (point%coefficient(motions, motions, size(point%frequency)), source=(0.0_wp, 0.0_wp))
+    end associate
     call cover_frequencies(bearing, response, point%frequency, log, model, made)
     if (.not. made) problem = 'the vibration at '//text(model%failed)//' rad/s: '//response_failure(response)
     if (.not. made) return
@@ -175,13 +178,18 @@ contains
     end do
   end subroutine show_amplitudes
 
-  !> The entries of x and y, row by row.
+  !> The entries of x and y, or of z and of tilts, row by row.
   function numbers_of(matrix) result(line)
     real(wp), intent(in) :: matrix(:, :)
     character(len=:), allocatable :: line
     integer :: row
 
     line = '  '
+    if (size(matrix, 1) < journal_motions) then
+      line = line//' '//text(matrix(1, 1), digits)//', '//text(matrix(2, 2), digits)//' '//text(matrix(2, 3), digits)//' '// &
+             text(matrix(3, 2), digits)//' '//text(matrix(3, 3), digits)
+      return
+    end if
     do row = 1, translations
       line = line//' '//text(matrix(row, 1), digits)//' '//text(matrix(row, 2), digits)
     end do
@@ -342,7 +350,12 @@ contains
     character(len=:), allocatable :: line
     integer :: i
 
-    call log%line('frequency [rad/s] (over speed)   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]')
+    if (size(point%coefficient, 1) < journal_motions) then
+      call log%line('frequency [rad/s] (over speed)   Kzz [N/m], of tilts Kxx Kxy Kyx Kyy [N m/rad]   '// &
+                    'Czz [N s/m], Cxx Cxy Cyx Cyy [N m s/rad]')
+    else
+      call log%line('frequency [rad/s] (over speed)   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]')
+    end if
     do i = 1, size(point%frequency)
       line = text(point%frequency(i), digits)
       if (speed > 0.0_wp) line = line//' ('//text(point%frequency(i)/speed, digits)//')'
@@ -350,19 +363,33 @@ contains
     end do
   end subroutine show_coefficients
 
-  !> The entries of x and y, a number each.
+  !> The entries that are results, a number each.
   subroutine add_entries(name, matrix, found)
     character(len=*), intent(in) :: name !! before the two axes
     real(wp), intent(in) :: matrix(:, :)
     type(quantity_type), allocatable, intent(inout) :: found(:)
-    character(len=*), parameter :: axes(translations) = ['x', 'y']
+    character(len=4), allocatable :: axes(:)
     integer :: row, column
 
-    do row = 1, translations
-      do column = 1, translations
-        call add_result(found, name//axes(row)//axes(column), matrix(row, column))
+    axes = motion_names(size(matrix, 1))
+    do row = 1, size(matrix, 1)
+      do column = 1, size(matrix, 2)
+        if (.not. is_result(row, column)) cycle
+        call add_result(found, name//trim(axes(row))//trim(axes(column)), matrix(row, column))
       end do
     end do
+
+  contains
+
+    !> Whether an entry is a result of its own: translations, and a runner's tilts.
+    pure logical function is_result(row, column)
+      integer, intent(in) :: row, column
+      if (size(matrix, 1) == journal_motions) then
+        is_result = max(row, column) <= translations
+      else
+        is_result = (row == 1) .eqv. (column == 1)
+      end if
+    end function is_result
   end subroutine add_entries
 
   !> Looks for the mass that whirls, where the shaft turns.

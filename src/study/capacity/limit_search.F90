@@ -8,6 +8,8 @@ module gfb_limit_search
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_text, only: text
+  use gfb_bearing_case, only: pad_angle
+  use gfb_film_surface, only: translations
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_load_capacity, analysis_lift_off
   use gfb_operating_point, only: operating_point_type
@@ -24,6 +26,7 @@ module gfb_limit_search
   public :: limit_type, limit_of, find_limit, leave_limit
 
   real(wp), parameter :: milliradians = 1.0e3_wp             !! in a radian
+  real(wp), parameter :: kilopascals = 1.0e-3_wp             !! in a pascal
   real(wp), parameter :: pound_force = 4.4482216152605_wp    !! [N]
   real(wp), parameter :: inch = 0.0254_wp                    !! [m]
   real(wp), parameter :: growth = 2.0_wp                     !! of load, speed or tilt in a step [1]
@@ -35,9 +38,11 @@ module gfb_limit_search
     integer :: axis = 1               !! of the tilt
     real(wp) :: smallest_gap = 0.0_wp !! [m]
     real(wp) :: contact_part = 0.0_wp !! of the load [1]
-    real(wp) :: direction(2) = 0.0_wp !! of the load [1]
+    real(wp) :: direction(translations) = 0.0_wp !! of the load [1]
     real(wp) :: length = 0.0_wp       !! of the bearing [m]
     real(wp) :: diameter = 0.0_wp     !! [m]
+    real(wp) :: arm = 0.0_wp          !! by which a tilt moves the film's edge [m]
+    real(wp) :: area = 0.0_wp         !! of the pads of a thrust bearing; 0: it is a journal's [m2]
   contains
     procedure :: value_at, point_with, reserve, next_value, is_of_film, results, words, never_within
     procedure, private :: coefficient
@@ -68,9 +73,16 @@ contains
     limit%axis = scene%capacity%tilt_axis
     limit%smallest_gap = scene%capacity%smallest_gap
     limit%contact_part = scene%capacity%contact_part
-    if (any(abs(point%load(:2)) > 0.0_wp)) limit%direction = point%load(:2)/norm2(point%load(:2))
+    associate (load => point%load(:translations))
+      if (any(abs(load) > 0.0_wp)) limit%direction = load/norm2(load)
+    end associate
     limit%length = scene%bearing%length
     limit%diameter = 2.0_wp*scene%bearing%radius
+    limit%arm = 0.5_wp*limit%length
+    if (.not. scene%bearing%is_thrust()) return
+    limit%arm = scene%bearing%radius
+    limit%area = 0.5_wp*real(scene%bearing%pads, wp)*pad_angle(scene%bearing)* &
+                 (scene%bearing%radius**2 - scene%bearing%inner_radius**2)
   end function limit_of
 
   !> Whether it is the film that tells, and not the asperities.
@@ -87,7 +99,7 @@ contains
 
     select case (self%question)
     case (analysis_load_capacity)
-      value = dot_product(point%load(:2), self%direction)
+      value = dot_product(point%load(:translations), self%direction)
     case (analysis_lift_off)
       value = point%speed
     case default
@@ -105,7 +117,7 @@ contains
     changed = point
     select case (self%question)
     case (analysis_load_capacity)
-      changed%load(:2) = value*self%direction
+      changed%load(:translations) = value*self%direction
     case (analysis_lift_off)
       changed%speed = value
     case default
@@ -149,7 +161,7 @@ contains
       next = 0.0_wp
       if (.not. left > 0.0_wp) return
       ! At least one by which the ends of the shaft come down as much as the film may lose.
-      tilt = left*self%smallest_gap/(0.5_wp*self%length)
+      tilt = left*self%smallest_gap/self%arm
       next = sign(max(growth*abs(value), tilt), value)
     end select
   end function next_value
@@ -165,8 +177,10 @@ contains
       select case (self%question)
       case (analysis_load_capacity)
         call add_result(list, 'load_capacity', value)
-        call add_result(list, 'load_capacity_coefficient', pounds*self%coefficient(point))
-        call add_result(list, 'load_capacity_coefficient_si', self%coefficient(point))
+        if (.not. self%area > 0.0_wp) then
+          call add_result(list, 'load_capacity_coefficient', pounds*self%coefficient(point))
+          call add_result(list, 'load_capacity_coefficient_si', self%coefficient(point))
+        end if
       case (analysis_lift_off)
         call add_result(list, 'lift_off_speed_rpm', value/rpm)
       case default
@@ -188,7 +202,7 @@ contains
   pure real(wp) function contact_part(answer, point) result(part)
     type(bearing_answer_type), intent(in) :: answer
     type(operating_point_type), intent(in) :: point !! with the load
-    part = norm2(answer%solid_force(:2))/norm2(point%load(:2))
+    part = norm2(answer%solid_force(:translations))/norm2(point%load(:translations))
   end function contact_part
 
   !> The limit as a sentence without its end.
@@ -202,8 +216,13 @@ contains
     associate (value => self%value_at(bearing%point))
       select case (self%question)
       case (analysis_load_capacity)
-        sentence = 'load capacity: '//text(value, 6)//' N, coefficient '// &
-                   text(pounds*self%coefficient(bearing%point), 3)//' lbf/(in^3 krpm)'
+        sentence = 'load capacity: '//text(value, 6)//' N, '
+        if (self%area > 0.0_wp) then ! the speed of a ring's tip is what designers tell beside it
+          sentence = sentence//text(kilopascals*value/self%area, 4)//' kPa on the pads at '// &
+                     text(0.5_wp*self%diameter*bearing%point%speed, 4)//' m/s at the tip'
+        else
+          sentence = sentence//'coefficient '//text(pounds*self%coefficient(bearing%point), 3)//' lbf/(in^3 krpm)'
+        end if
       case (analysis_lift_off)
         sentence = 'lift-off speed: '//text(value/rpm, 6)//' rpm'
       case default

@@ -1,7 +1,7 @@
 !> What a scene needs, and no more; each choice with its reason.
 module gfb_bearing_plan
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_length
+  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_gas_case, only: gas_case_type
   use gfb_model_case, only: foil_elastic_foundation, meshes_foils, foil_shell, foil_word, &
@@ -13,7 +13,7 @@ module gfb_bearing_plan
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_strip_load_case, only: bump_stiffness
-  use gfb_sweep_case, only: sweep_load, sweep_speed
+  use gfb_sweep_case, only: sweep_load, sweep_speed, sweep_axial_load
   use gfb_text, only: text
   use gfb_petsc_session, only: rank_count
   use gfb_scene_rules, only: is_symmetric, heat_mirrors
@@ -38,6 +38,8 @@ module gfb_bearing_plan
   !> above it both have the same error in the force, but Galerkin misses the smallest pressure by
   !> percents.
   real(wp), parameter :: galerkin_limit = 2.0_wp
+  !> The same of sectors, whose force Galerkin has better up to 7.6 of the land at the outer radius.
+  real(wp), parameter :: limit_of_sectors = 10.0_wp
 
 contains
 
@@ -49,14 +51,28 @@ contains
     real(wp) :: p_a, area !! [Pa], D L [m^2]
 
     p_a = scene%gas%ambient_pressure
-    area = 2.0_wp*scene%bearing%radius*scene%bearing%length
     call log%line('numbers without unit:')
-    call log%line('  clearance over radius C/R: '// &
-                  text(scene%bearing%clearance/scene%bearing%radius, digits))
-    call log%line('  bearing number 6 mu Omega/p_a (R/C)^2: '// &
+    if (scene%bearing%is_thrust()) then
+      area = real(scene%bearing%pads, wp)*pad_angle(scene%bearing)*scene%bearing%length* &
+             0.5_wp*(scene%bearing%radius + scene%bearing%inner_radius)
+      call log%line('  inner over outer radius: '// &
+                    text(scene%bearing%inner_radius/scene%bearing%radius, digits))
+      call log%line('  size of the gap h (axial_gap, or half of the ramp) over outer radius R: '// &
+                    text(scene%bearing%clearance/scene%bearing%radius, digits))
+    else
+      area = 2.0_wp*scene%bearing%radius*scene%bearing%length
+      call log%line('  clearance over radius C/R: '// &
+                    text(scene%bearing%clearance/scene%bearing%radius, digits))
+    end if
+    call log%line('  bearing number 6 mu Omega/p_a (R/'// &
+                  merge('h', 'C', scene%bearing%is_thrust())//')^2: '// &
                   spread_text(scene, sweep_speed, scene%operation%speed_rpm, &
                               bearing_number(scene%bearing, scene%gas, 1.0_wp)))
-    if (scene%general%analysis == analysis_equilibrium) then
+    if (scene%general%analysis == analysis_equilibrium .and. scene%bearing%is_thrust()) then
+      call log%line('  load over p_a times the pads'' area: '// &
+                    spread_text(scene, sweep_axial_load, scene%operation%axial_load, &
+                                1.0_wp/(p_a*area)))
+    else if (scene%general%analysis == analysis_equilibrium) then
       call log%line('  load over p_a D L: '// &
                     spread_text(scene, sweep_load, norm2(scene%operation%load), 1.0_wp/(p_a*area)))
     end if
@@ -67,7 +83,8 @@ contains
       stiffness = bump_stiffness(scene%bump_foil)
     end if
     if (stiffness > 0.0_wp) then
-      call log%line('  bump stiffness times C over p_a: '// &
+      call log%line('  bump stiffness times '//merge('h', 'C', scene%bearing%is_thrust())// &
+                    ' over p_a: '// &
                     text(stiffness*scene%bearing%clearance/p_a, digits))
     end if
   end subroutine show_numbers
@@ -114,9 +131,13 @@ contains
     call show_numbers(scene, log)
     call describe_foil(scene, log)
     if (scene%thermal%present) call describe_heat(scene, log)
-    call choose_width(scene, log, plan)
+    if (.not. scene%bearing%is_thrust()) call choose_width(scene, log, plan)
     call choose_scheme(scene, log, plan)
-    if (plan%floats) then
+    if (plan%floats .and. scene%operation%moment_given) then
+      call log%line('runner: axial gap and tilt are unknowns, balanced with load and moment')
+    else if (plan%floats .and. scene%bearing%is_thrust()) then
+      call log%line('runner: the axial gap is unknown, balanced with the load')
+    else if (plan%floats) then
       call log%line('shaft: (e_x, e_y) are unknowns, balanced with the load')
     else
       call log%line('shaft: position given, no shaft unknowns')
@@ -206,7 +227,7 @@ contains
       if (scene%model%foundation_stiffness > 0.0_wp) source = 'as given'
       pressure = 'local pressure'
       if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
-        pressure = 'axial mean pressure'
+        pressure = trim(merge('radial', 'axial ', scene%bearing%is_thrust()))//' mean pressure'
       end if
       call log%line('foil: elastic foundation, '// &
                     text(foundation_stiffness(scene%model, scene%bump_foil)*1.0e-9_wp, 5)// &
@@ -274,6 +295,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(bearing_plan_type), intent(inout) :: plan
+    real(wp) :: limit
 
     plan%peclet = concentric_peclet(scene, plan)
     if (plan%order == film_order_biquadratic) then
@@ -287,11 +309,12 @@ contains
                     ', as film_scheme asks')
       return
     end if
-    plan%upwind = plan%peclet > galerkin_limit
+    limit = merge(limit_of_sectors, galerkin_limit, scene%bearing%is_thrust())
+    plan%upwind = plan%peclet > limit
     call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))// &
                   ', because the cell Peclet number of the concentric film is '// &
                   text(plan%peclet, 3)// &
-                  trim(merge(' > ', ' < ', plan%upwind))//' '//text(galerkin_limit))
+                  trim(merge(' > ', ' < ', plan%upwind))//' '//text(limit))
   end subroutine choose_scheme
 
   !> Cell Peclet number of the film at ambient pressure between concentric surfaces.

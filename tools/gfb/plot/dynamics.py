@@ -12,6 +12,10 @@ ANGLES = (("phi_x phi_x", 2, 2, "C0", "-"), ("phi_x phi_y", 2, 3, "C1", "-"), ("
           ("phi_y phi_y", 3, 3, "C0", "--"))
 CHARTS = (("stiffness", ENTRIES, 1.0e-6, "K [MN/m]"), ("damping", ENTRIES, 1.0e-3, "C [kN s/m]"),
           ("stiffness", ANGLES, 1.0, "K [N m/rad]"), ("damping", ANGLES, 1.0, "C [N m s/rad]"))
+AXIAL = (("zz", 0, 0, "C0", "-"),)
+RUNNER = tuple((words, row - 1, column - 1, colour, style) for words, row, column, colour, style in ANGLES)  # order e_z, phi_x, phi_y
+CHARTS_OF_RUNNER = (("stiffness", AXIAL, 1.0e-6, "K [MN/m]"), ("damping", AXIAL, 1.0e-3, "C [kN s/m]"),
+                    ("stiffness", RUNNER, 1.0, "K [N m/rad]"), ("damping", RUNNER, 1.0, "C [N m s/rad]"))
 
 
 def draw(path, file, steps=()):
@@ -31,7 +35,8 @@ def draw(path, file, steps=()):
     elif "summary" in file:
         title = read_scene(file).title(path)
     figure, axes = pyplot.subplots(2, 2, figsize=(11.0, 6.6), layout="constrained", sharex=True)
-    for chart, (name, entries, scale, label) in zip(axes.flat, CHARTS):
+    charts = CHARTS if group["stiffness"].shape[-1] == 4 else CHARTS_OF_RUNNER
+    for chart, (name, entries, scale, label) in zip(axes.flat, charts, strict=True):
         values = group[name][here]*scale
         for words, row, column, colour, style in entries:
             chart.plot(frequency, values[:, row, column], style, color=colour, marker="o", markersize=3.0, label=words)

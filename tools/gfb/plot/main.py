@@ -49,7 +49,7 @@ draw_into_files()
 from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
-from gfb.plot import animation, dynamics, foil, heat, periodic, polar, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot import animation, dynamics, foil, heat, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, round_numbers, step_words  # noqa: E402
 from gfb.results import BROKEN, Unreadable, attribute, open_results, reading, text_of  # noqa: E402
@@ -182,10 +182,15 @@ def draw(options, paths, files):
     if "VTKHDF" in file:
         if options.columns:
             stop(f"{path}: columns are of a history; name a CASE.h5")
-        return draw_film(path, file)
+        return drawing_of(file)(path, file)
     if "history" in file:
         return draw_history(path, file, options.columns, options.together)
     return stop(f"{path}: neither a film or foil file nor a case file of gfb")
+
+
+def drawing_of(file):
+    """What draws a film: of sectors in their plane, else unrolled."""
+    return ring.draw_ring if ring.is_ring(file) else draw_film
 
 
 def draw_step(options, path, file):
@@ -203,7 +208,7 @@ def draw_step(options, path, file):
         if foil.is_foil(one):
             figure = foil.draw(steps.alone(path), one, [])
         else:
-            figure = OF_FILMS.get(options.show, draw_film)(steps.alone(path), one)
+            figure = OF_FILMS.get(options.show, drawing_of(one))(steps.alone(path), one)
     finally:
         one.close()
     what = steps.alone(path).name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")

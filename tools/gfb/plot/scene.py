@@ -15,7 +15,8 @@ WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle":
          "minimum_gap_midplane": "thinnest film, midplane", "minimum_gap_edge": "thinnest film, edges", "eccentricity_x": "e_x",
          "eccentricity_y": "e_y", "torque_x": "torque about x", "torque_y": "torque about y", "force_x": "force along x",
          "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
-         "minimum_pressure": "smallest pressure, absolute", "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
+         "minimum_pressure": "smallest pressure, absolute", "axial_gap": "axial gap", "axial_force": "axial force",
+         "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
 NEAR = 1.0e-4  # of the film's force: a load that differs less is it
 SAME = 1.0e-9  # of the largest value: edges that differ less are one line
 
@@ -55,7 +56,7 @@ def read_scene(file):
     keys, summary, scene = used_keys(file), file["summary"], Scene()
     scene.frequencies = {f"mode_{name.removeprefix('frequency_')}": float(data[()]) for name, data in summary.items()
                          if name.startswith("frequency_")}
-    if ("bearing", "radius") not in keys:  # a strip
+    if not {("bearing", "radius"), ("bearing", "outer_radius")} & set(keys):  # a strip
         return scene
     scene.radius = number(keys, "bearing", "radius")
     scene.begin = math.degrees(number(keys, "bearing", "leading_edge_angle") or 0.0)
@@ -64,6 +65,8 @@ def read_scene(file):
         force = complex(summary["force_x"][()], summary["force_y"][()])
         words.append(f"{'load' if carries_load(keys, history, abs(force)) else 'film force'} {abs(force):.4g} N")
         scene.load_angle = math.degrees(math.atan2(force.imag, force.real)) if abs(force) > 0.0 else None
+    if "axial_force" in summary:
+        words.append(f"{summary['axial_force'][()]:.4g} N on {int(number(keys, 'pads', 'count') or 1)} pads")
     speed = history["speed_rpm"][-1] if "speed_rpm" in history else number(keys, "operation", "speed_rpm")
     if speed is not None:
         words.append(f"{speed:,.0f} rpm")

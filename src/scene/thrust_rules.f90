@@ -1,0 +1,162 @@
+!> What a thrust bearing asks of the scene.
+module gfb_thrust_rules
+  use gfb_kinds, only: wp
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, needs_journal, needs_thrust
+  use gfb_case_keys, only: case_keys_type
+  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foundation_pressure_local
+  use gfb_operation_case, only: operation_case_type
+  use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_study_cases, only: quantities_of_rings
+  use gfb_sweep_case, only: operation_at, sweep_keys, sweep_axial_gap, &
+                            sweep_axial_load, sweep_tilt_x, sweep_tilt_y, sweep_speed
+  use gfb_text, only: text
+  use gfb_units, only: degrees
+  implicit none (type, external)
+  private
+  public :: check_thrust
+
+contains
+
+  !> Checks a scene with a thrust bearing, and that others have none of its parameters.
+  subroutine check_thrust(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    associate (sweep => scene%sweep, foil => scene%model%foil, &
+               asked => scene%sensitivity%quantity)
+      if (.not. scene%bearing%is_thrust()) then
+        call keys%rule('sweep', 'parameter', any(sweep%parameter == [sweep_axial_load, &
+                       sweep_axial_gap]), needs_thrust)
+        call keys%rule('sensitivity', 'quantity', any(asked(size(asked) - quantities_of_rings &
+                       + 1:)), 'names a result of thrust bearings: '//needs_thrust)
+        return
+      end if
+      call keys%rule('sweep', 'parameter', all(sweep%parameter /= [0, sweep_keys, sweep_speed, &
+                     sweep_tilt_x, sweep_tilt_y, sweep_axial_load, sweep_axial_gap]), &
+                     needs_journal//': axial_load and axial_gap stand for load and eccentricity')
+      call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_load .and. &
+                     scene%general%analysis == analysis_fixed_position, &
+                     'needs axial_load in &operation: the gap is held')
+      call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_gap .and. &
+                     scene%general%analysis /= analysis_fixed_position, &
+                     'needs a gap that is held: axial_gap in &operation without axial_load')
+      call keys%rule('sweep', 'parameter', scene%operation%moment_given .and. any( &
+                     sweep%parameter == [sweep_tilt_x, sweep_tilt_y]), 'needs a tilt that is '// &
+                     'held: no moment in &operation')
+      call keys%rule('scene', 'analysis', scene%transient%present .or. scene%periodic%present, &
+                     'cannot be that of a thrust bearing yet: its runner is '// &
+                     'not followed over time')
+      call keys%rule('model', 'foil', all(foil /= [0, foil_rigid, foil_elastic_foundation]), &
+                     "must be 'rigid' or 'elastic_foundation' with kind = 'thrust' in &bearing")
+      call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. asked(size(asked) - 1) .and. &
+                     .not. scene%general%analysis == analysis_equilibrium, 'names a result of '// &
+                     'journal bearings, or axial_gap where it is held')
+      call check_strips(keys, scene)
+      call check_rigid_gap(keys, scene)
+    end associate
+  end subroutine check_thrust
+
+  !> Strips side by side under local pressure: one more than cuts, which lie on the pad.
+  subroutine check_strips(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: stiffness = 'strip_foundation_stiffness', cuts = 'cut_radii'
+
+    associate (model => scene%model, bearing => scene%bearing)
+      call keys%refuse('model', stiffness//', '//cuts, &
+                       all(model%foil /= [0, foil_elastic_foundation]), &
+                       "needs foil = 'elastic_foundation'")
+      call keys%rule('model', stiffness, size(model%strip_stiffness) /= 0 .and. &
+                     size(model%strip_stiffness) /= size(model%cut_radii) + 1, 'must have one '// &
+                     'value more than cut_radii: '//text(size(model%cut_radii) + 1)//', not '// &
+                     text(size(model%strip_stiffness)))
+      if (size(model%strip_stiffness) == 0) then
+        call keys%rule('model', cuts, size(model%cut_radii) > 0, 'needs '//stiffness)
+        return
+      end if
+      call keys%rule('model', stiffness, keys%meant('model', 'foundation_stiffness'), &
+                     'cannot stand beside foundation_stiffness: give one of them')
+      call keys%rule('model', stiffness, keys%meant('model', 'foundation_exponent'), &
+                     'cannot stand beside foundation_exponent: each strip has one stiffness')
+      call keys%rule('model', stiffness, model%foundation_pressure /= foundation_pressure_local, &
+                     "needs foundation_pressure = 'local': a mean goes over all strips")
+      call keys%rule('model', cuts, any(model%cut_radii <= bearing%inner_radius) .or. &
+                     any(model%cut_radii >= bearing%radius), 'must lie between inner_radius '// &
+                     'and outer_radius')
+      associate (n => size(model%cut_radii))
+        call keys%rule('model', cuts, any(model%cut_radii(2:) <= model%cut_radii(:n - 1)), &
+                       'must rise from strip to strip')
+      end associate
+    end associate
+  end subroutine check_strips
+
+  !> A rigid pad leaves the runner its gap everywhere.
+  subroutine check_rigid_gap(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    integer :: point
+
+    associate (sweep => scene%sweep)
+      if (scene%model%foil /= foil_rigid .or. .not. scene%bearing%length > 0.0_wp) return
+      if (scene%general%analysis /= analysis_fixed_position) return
+      if (sweep%parameter == 0 .or. sweep%parameter == sweep_keys) then
+        if (any(abs(scene%operation%tilt) > 0.0_wp)) call check_gap('operation', 'tilt', &
+                                                                    scene%operation)
+        return
+      end if
+      do point = 1, size(sweep%values)
+        call check_gap('sweep', 'values', operation_at(scene%operation, sweep, point), point)
+      end do
+    end associate
+
+  contains
+
+    !> Complains about a position without a gap.
+    subroutine check_gap(group, key, operation, point)
+      character(len=*), intent(in) :: group, key
+      type(operation_case_type), intent(in) :: operation
+      integer, intent(in), optional :: point
+      real(wp) :: gap, place(2) !! smallest one [m]; radius, angle [m], [rad]
+      integer :: pad
+
+      call find_smallest_gap(scene%bearing, operation, gap, pad, place)
+      call keys%rule(group, key, .not. gap > 0.0_wp, 'leaves a gap of '//text(gap, 4)//' m on '// &
+                     'pad '//text(pad)//', at radius '//text(place(1), 4)//' m and '// &
+                     text(place(2)*degrees, 4)//' deg, which must be positive in a rigid bearing', &
+                     point)
+    end subroutine check_gap
+  end subroutine check_rigid_gap
+
+  !> Where the gap of rigid pads is smallest: at an inner or outer edge, since it is linear along
+  !> the radius.
+  pure subroutine find_smallest_gap(bearing, operation, gap, pad, place)
+    type(bearing_case_type), intent(in) :: bearing
+    type(operation_case_type), intent(in) :: operation
+    real(wp), intent(out) :: gap      !! [m]
+    integer, intent(out) :: pad       !! number
+    real(wp), intent(out) :: place(2) !! radius and angle [m], [rad]
+    integer, parameter :: points = 500 !! of a pad
+    real(wp) :: radii(2), angle, along, here
+    integer :: number, i, side
+
+    gap = huge(1.0_wp)
+    pad = 1
+    place = 0.0_wp
+    radii = [bearing%inner_radius, bearing%radius]
+    do number = 1, bearing%pads
+      do i = 0, points
+        along = pad_angle(bearing)*real(i, wp)/real(points, wp)
+        angle = bearing%leading_edge_angle + pad_turn(bearing, number) + along
+        do side = 1, size(radii)
+          here = operation%axial_gap + bearing%ramp_gap(along) + radii(side)* &
+                 (operation%tilt(2)*cos(angle) - operation%tilt(1)*sin(angle))
+          if (here >= gap) cycle
+          gap = here
+          pad = number
+          place = [radii(side), angle]
+        end do
+      end do
+    end do
+  end subroutine find_smallest_gap
+end module gfb_thrust_rules
