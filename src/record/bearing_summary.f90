@@ -153,7 +153,9 @@ contains
     subroutine add_moduli(behind, share)
       character(len=*), intent(in) :: behind !! the name
       type(heat_share_type), intent(in) :: share
-      call add_result(list, 'modulus_ratio_top_foil'//behind, share%modulus(1))
+      if (heat%top_foil_bends) then
+        call add_result(list, 'modulus_ratio_top_foil'//behind, share%modulus(1))
+      end if
       call add_result(list, 'modulus_ratio_bumps'//behind, share%modulus(2))
     end subroutine add_moduli
   end subroutine add_heat
@@ -282,6 +284,7 @@ contains
   subroutine show_heat(log, heat)
     type(run_log_type), intent(in) :: log
     type(heat_answer_type), intent(in) :: heat
+    character(len=:), allocatable :: words
 
     associate (whole => heat%whole)
       call log%line('heat             '//share('to the shaft', whole%to_shaft)//', '// &
@@ -303,9 +306,12 @@ contains
       end if
       call log%line('clearance        '//engineering_text(heat%running_clearance, 'um', &
                                                           1.0e6_wp)//' when it runs')
-      if (heat%softens) call log%line('modulus          '//text(whole%modulus(1), 4)// &
-                    ' of youngs_modulus in the top foil, '//text(whole%modulus(2), 4)// &
-                    ' in the bumps')
+      if (heat%softens) then
+        words = ''
+        if (heat%top_foil_bends) words = text(whole%modulus(1), 4)//' in the top foil, '
+        call log%line('modulus          '//words//text(whole%modulus(2), 4)//' in the bumps, '// &
+                      'over youngs_modulus')
+      end if
       if (heat%off_table) call log%line('note: some foil is hotter or colder than the table or '// &
                     'the slope of its modulus goes: there it is as at the end')
     end associate

@@ -41,7 +41,8 @@ module gfb_heat_answer
     real(wp) :: cooling_outlet_temperature = 0.0_wp !! [K]
     real(wp) :: running_clearance = 0.0_wp          !! C less all growth, mean [m]
     real(wp) :: imbalance = 0.0_wp                  !! power less all heat, over the power [1]
-    logical :: softens = .false.                    !! the modulus follows the temperature
+    logical :: softens = .false.                    !! the modulus of foils follows their temperature
+    logical :: top_foil_bends = .false.             !! then: that of the top foil counts, too
     logical :: off_table = .false.                  !! some foil is hotter or colder than its table
   end type heat_answer_type
 
@@ -71,6 +72,7 @@ contains
       answer%pad = [(share_of(sum_of(:, i), most(:, i), wall(heat%inlet_wall(i))), i=1, size(pads))]
       answer%whole = share_of(sum(sum_of, 2), maxval(most, 2), sum(answer%pad%inlet_temperature)/real(size(pads), wp))
       if (heat%softens()) call read_moduli(heat, point, unknown, answer)
+      answer%top_foil_bends = pads(1)%foil%is_meshed()
       associate (all => sum(sum_of, 2))
         answer%shaft_temperature = all(13)/all(3)
         answer%running_clearance = pads(1)%film%clearance - all(14)/all(3)

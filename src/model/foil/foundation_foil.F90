@@ -237,7 +237,7 @@ contains
 
     moved = self%foil_model_type%deflection(unknown)
     if (.not. present(modulus) .or. size(self%global_unknown) > 0) return
-    moved = moved*(self%modulus(bumps)*self%stiffness + self%drag)/(modulus(bumps)*self%stiffness + self%drag)
+    moved = moved*((self%modulus(bumps)*self%stiffness + self%drag)/(modulus(bumps)*self%stiffness + self%drag))
   end function foundation_deflection
 
   !> The mean of a pressure that depends on other unknowns.
