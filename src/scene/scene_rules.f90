@@ -125,7 +125,7 @@ contains
       call keys%rule(heat, 'carry_over', scene%bearing%leading_edge_condition == &
                      leading_edge_periodic .and. keys%meant(heat, 'carry_over'), 'has no use '// &
                      "with leading_edge_condition = 'periodic': a full ring has no slit")
-      call keys%refuse(heat, moduli, scene%model%foil == foil_rigid, "has no use with foil = "// &
+      call keys%refuse(heat, moduli, scene%model%foil == foil_rigid, 'has no use with foil = '// &
                        "'rigid': nothing bends")
       call keys%refuse(heat, moduli, scene%model%foil == foil_elastic_foundation .and. &
                        keys%meant('model', 'foundation_stiffness'), 'has no use with '// &

@@ -162,9 +162,9 @@ contains
     end associate
   end function growth_of
 
-  !> Moduli of a pad's top foil and bumps over those that are typed: of its mean temperature, and of the
-  !> mean of that and the sleeve's. Derivatives: of the first by its mean temperature, of the second by
-  !> either [1], [1/K].
+  !> Moduli of a pad's top foil and bumps over those that are typed: at its mean temperature, and at
+  !> the mean of that and the sleeve's. Derivatives: of the first by its mean temperature, of the
+  !> second by either.
   pure subroutine moduli_at(heat, pad, part, unknown, ratio, rate)
     type(film_heat_type), intent(in) :: heat !! of the bearing, whose foils soften
     integer, intent(in) :: pad !! its number

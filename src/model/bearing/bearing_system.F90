@@ -160,7 +160,7 @@ contains
       call number_by(bearing, i, bearing%jacobian)
       state%shaft = shaft_of(bearing, i)
       state%growth = growth_of(bearing, i, bearing%point)
-      call add_of_foil(bearing, bearing%pad(i)%foil%elastic, i, [1.0_wp, 1.0_wp], .true., bearing%jacobian)
+      call add_of_foil(bearing%blocks, bearing%pad(i)%foil, i, bearing%pad(i)%foil%elastic, [1.0_wp, 1.0_wp], .true., bearing%jacobian)
       do k = 1, size(bearing%term)
         if (associated(bearing%term(k)%add_constant)) call bearing%term(k)%add_constant(bearing%pad(i), state, bearing%jacobian)
       end do
@@ -169,7 +169,7 @@ contains
     if (bearing%heat%present) then
       call add_heat_jacobian(bearing%heat, bearing%pad, bearing%point, bearing%coordinate, bearing%first_shaft, nothing, &
                              nothing, nothing, bearing%last_rank, .true., bearing%jacobian)
-      call add_softness(bearing, bearing%point, nothing, .true., bearing%jacobian)
+      call add_softness(bearing%blocks, bearing%heat, bearing%pad, 0.0_wp, nothing, .true., bearing%jacobian)
     end if
     if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(shaft_of(bearing, 0), 0.0_wp*hold_stiffness(bearing, bearing%point, .false.), bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
@@ -271,7 +271,7 @@ contains
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%get_unknowns(unknown, state)
     here = self%position(unknown, point)
-    call soften_foils(self, here, unknown)
+    call soften_foils(self%heat, here%growth, unknown, self%pad)
     gap = self%gap(unknown, point)
     value = 0.0_wp
     valid = is_open(self, here, unknown, gap)
@@ -407,7 +407,7 @@ contains
     self%times_filled = self%times_filled + 1
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%get_unknowns(unknown, state)
-    call soften_foils(self, point, unknown)
+    call soften_foils(self%heat, point%growth, unknown, self%pad)
     gap = self%gap(unknown, point)
     if (self%is_meshed()) then
       PetscCallA(MatCopy(self%constant, self%jacobian, SAME_NONZERO_PATTERN, ierr))
@@ -430,7 +430,7 @@ contains
       call add_heat_jacobian(self%heat, self%pad, self%position(unknown, point), self%coordinate, self%first_shaft, unknown, gap, &
                              flow, self%last_rank, .false., self%jacobian)
     end if
-    call add_softness(self, point, unknown, .false., self%jacobian)
+    call add_softness(self%blocks, self%heat, self%pad, point%growth, unknown, .false., self%jacobian)
     if (self%floats .and. self%last_rank) call add_shaft_stiffness(shaft_of(self, 0), hold_stiffness(self, point, fixed), self%jacobian)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))

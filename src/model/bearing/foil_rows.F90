@@ -15,9 +15,10 @@ module gfb_foil_rows
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_matrix_rows, only: copy_row
-  use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_heat, only: moduli_at
-  use gfb_bearing, only: bearing_type
+  use gfb_blocks, only: blocks_type
+  use gfb_foil_model, only: foil_model_type
+  use gfb_pad, only: pad_type
+  use gfb_bearing_heat, only: film_heat_type, moduli_at
   implicit none (type)
   private
   public :: add_of_foil, soften_foils, add_softness
@@ -25,81 +26,88 @@ module gfb_foil_rows
 contains
 
   !> Adds a matrix of a pad's foil, in its own numbers.
-  subroutine add_of_foil(bearing, of_foil, pad, factor, keeps_diagonal, matrix)
-    class(bearing_type), intent(in) :: bearing !! pads and shaft
+  subroutine add_of_foil(blocks, foil, pad, of_foil, factor, keeps_diagonal, matrix)
+    type(blocks_type), intent(in) :: blocks !! of the bearing's unknowns
+    class(foil_model_type), intent(in) :: foil !! of the pad
+    integer, intent(in) :: pad !! its number
     Mat, intent(in) :: of_foil !! the same one for each pad
-    integer, intent(in) :: pad !! which
     real(wp), intent(in) :: factor(2) !! of the rows of top foil and bumps [1]
     logical, intent(in) :: keeps_diagonal !! also where it is zero
     Mat, intent(in) :: matrix !! like the bearing's
-    PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(pad)%foil%row_entries]))
+    PetscInt :: first, last, row, entries, number(maxval([0, foil%row_entries]))
     PetscInt, allocatable :: renumbered(:)
     PetscScalar :: value(size(number))
     PetscErrorCode :: ierr
     integer, allocatable :: kept(:)
     integer :: i
 
-    associate (blocks => bearing%blocks, foil_block => 2*pad, top => bearing%pad(pad)%foil%owned_top)
+    associate (foil_block => 2*pad)
       PetscCallA(MatGetOwnershipRange(of_foil, first, last, ierr))
       do row = first, last - 1
         call copy_row(of_foil, row, entries, number, value)
         ! Membrane and bending of a condensed flat do not know each other either: exact zeros fill half of its block.
         kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp .or. (keeps_diagonal .and. number(:entries) == row))
         renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
-        PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, merge(factor(1), factor(2), int(row - first) < top)*value(kept), ADD_VALUES, ierr))
+        PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, merge(factor(1), factor(2), int(row - first) < foil%owned_top)*value(kept), ADD_VALUES, ierr))
       end do
     end associate
   end subroutine add_of_foil
 
   !> Gives all foils the moduli that they have at a state.
-  subroutine soften_foils(bearing, point, unknown)
-    class(bearing_type), intent(inout) :: bearing !! with heat or without it
-    type(operating_point_type), intent(in) :: point !! whose part of what temperatures do counts
+  subroutine soften_foils(heat, part, unknown, pads)
+    type(film_heat_type), intent(in) :: heat !! of the bearing, or none
+    real(wp), intent(in) :: part !! of what temperatures do [1]
     real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    type(pad_type), intent(inout) :: pads(:) !! of the bearing
+    real(wp) :: ratio(2), rate(2)
     integer :: i
 
-    if (.not. bearing%heat%softens()) return
-    do i = 1, size(bearing%pad)
-      call bearing%pad(i)%foil%soften(bearing%modulus(i, unknown, point))
+    if (.not. heat%softens()) return
+    do i = 1, size(pads)
+      call moduli_at(heat, i, part, unknown, ratio, rate)
+      call pads(i)%foil%soften(ratio)
     end do
   end subroutine soften_foils
 
   !> Adds what other moduli than those of the foils as they were built change in the matrix, and the columns of temperatures.
-  subroutine add_softness(bearing, point, unknown, room, matrix)
-    class(bearing_type), intent(in) :: bearing !! whose foils have the moduli of this state
-    type(operating_point_type), intent(in) :: point !! whose part of what temperatures do counts
+  subroutine add_softness(blocks, heat, pads, part, unknown, room, matrix)
+    type(blocks_type), intent(in) :: blocks !! of the bearing's unknowns
+    type(film_heat_type), intent(in) :: heat !! of the bearing, or none
+    type(pad_type), intent(in) :: pads(:) !! whose foils have the moduli of this state
+    real(wp), intent(in) :: part !! of what temperatures do [1]
     real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
     logical, intent(in) :: room !! zeros alone, where they stand; the state has no values then
     Mat, intent(in) :: matrix !! the bearing's, not scaled yet
     integer :: i
 
-    do i = 1, size(bearing%pad)
-      associate (foil => bearing%pad(i)%foil)
+    do i = 1, size(pads)
+      associate (foil => pads(i)%foil)
         if (foil%is_meshed() .and. .not. room .and. any(abs(foil%modulus - 1.0_wp) > 0.0_wp)) then
-          call add_of_foil(bearing, foil%elastic, i, foil%modulus - 1.0_wp, .false., matrix)
+          call add_of_foil(blocks, foil, i, foil%elastic, foil%modulus - 1.0_wp, .false., matrix)
         end if
       end associate
-      if (bearing%heat%softens()) call add_columns(bearing, i, point, unknown, room, matrix)
+      if (heat%softens()) call add_columns(blocks, heat, pads(i), i, part, unknown, room, matrix)
     end do
   end subroutine add_softness
 
   !> Columns of the temperatures that a pad's foils follow: of their own mean, and of the sleeve's for the bumps.
-  subroutine add_columns(bearing, i, point, unknown, room, matrix)
-    class(bearing_type), intent(in) :: bearing
-    integer, intent(in) :: i !! of the pad
-    type(operating_point_type), intent(in) :: point
-    real(wp), intent(in) :: unknown(:)
+  subroutine add_columns(blocks, heat, pad, i, part, unknown, room, matrix)
+    type(blocks_type), intent(in) :: blocks
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: i !! its number
+    real(wp), intent(in) :: part, unknown(:)
     logical, intent(in) :: room
     Mat, intent(in) :: matrix
-    real(wp) :: rate(bearing%pad(i)%last - bearing%pad(i)%first, 2), ratio(2), by(2)
+    real(wp) :: rate(pad%last - pad%first, 2), ratio(2), by(2)
     PetscInt :: first, last, column(2)
     PetscErrorCode :: ierr
     integer :: k, own
 
     rate = 0.0_wp
-    associate (heat => bearing%heat, global => bearing%blocks%global, pad => bearing%pad(i))
+    associate (global => blocks%global)
       if (.not. room) then
-        call moduli_at(heat, i, point%growth, unknown, ratio, by)
+        call moduli_at(heat, i, part, unknown, ratio, by)
         call pad%foil%add_modulus_rates(unknown(pad%first + 1:pad%last), rate)
         rate = rate*spread(by, 1, size(rate, 1))
       end if

@@ -173,7 +173,7 @@ contains
       associate (foil => bearing%pad(i)%foil)
         call number_by(bearing, i, matrix)
         call foil%add_springs(matrix)
-        if (foil%is_meshed()) call add_of_foil(bearing, foil%elastic, i, foil%modulus, .false., matrix)
+        if (foil%is_meshed()) call add_of_foil(bearing%blocks, foil, i, foil%elastic, foil%modulus, .false., matrix)
       end associate
     end do
     call finish(bearing, matrix)
@@ -189,7 +189,7 @@ contains
 
     PetscCallA(MatZeroEntries(matrix, ierr))
     do i = 1, size(bearing%pad)
-      call add_of_foil(bearing, of_foil, i, [1.0_wp, 1.0_wp], .false., matrix)
+      call add_of_foil(bearing%blocks, bearing%pad(i)%foil, i, of_foil, [1.0_wp, 1.0_wp], .false., matrix)
     end do
     call finish(bearing, matrix)
   end subroutine fill_from_foil

@@ -131,9 +131,9 @@ contains
     integer :: i
 
     table = keys%holds(group, places)
-    call keys%real_list_key(places, temperature, longest_list, 'K', 'temperatures of a table of '// &
-                            "the foils' modulus, rising", from_to(coldest, hottest), .false., &
-                            'no table')
+    call keys%real_list_key(places, temperature, longest_list, 'K', 'temperatures of a table '// &
+                            "of the foils' modulus, rising", from_to(coldest, hottest), &
+                            .false., 'no table')
     if (keys%last_key_is_right()) then
       if (size(temperature) < 2) call keys%complain(group, places, 'needs two values at least')
       do i = 2, size(temperature)
@@ -156,9 +156,9 @@ contains
       end if
     end if
     slope = 0.0_wp
-    call keys%real_key(line, slope, '1/K', 'of that ratio, which is 1 at `reference_temperature`, '// &
-                       'instead of a table; it ends at 0.1', any_value, default=no_default, &
-                       given=given)
+    call keys%real_key(line, slope, '1/K', 'of that ratio, which is 1 at '// &
+                       '`reference_temperature`, instead of a table; it ends at 0.1', &
+                       any_value, default=no_default, given=given)
     if (given .and. keys%holds(group, places)) then
       call keys%complain(group, line, 'must not be given beside modulus_temperatures')
     else if (given) then
