@@ -3,8 +3,9 @@
 !> slit, cooling gas along the bumps.
 !>
 !> Unknowns of a film node are the gas' and the top foil's temperature; those of all walls follow those of all pads, on the last
-!> rank: of the shaft (one, or one a row), the sleeve, each pad's slit, the channel (one a row). What lies along the axis alone
-!> (a fin, a channel) is weighted over the film's elements, as all else: so energy closes to round-off.
+!> rank: of the shaft (one, or one a row), the sleeve, each pad's slit, the mean of each pad's top foil where the modulus of foils
+!> follows it, the channel (one a row). What lies along the axis alone (a fin, a channel) is weighted over the film's elements, as
+!> all else: so energy closes to round-off.
 module gfb_film_heat
   use petscmat
   use gfb_kinds, only: wp
