@@ -224,7 +224,17 @@ module gfb_result_table
       'clearance less what shaft and sleeve grow by temperature and speed', asked=.true.), &
     result_type('energy_imbalance', '1', number, bearing, &
       'power less all heat out of the film, over the power', &
-      'power less all heat out of the film, over the power: what the solver left open')]
+      'power less all heat out of the film, over the power: what the solver left open'), &
+    result_type('modulus_ratio_top_foil', '1', number, bearing, &
+      'modulus of the top foil over its youngs_modulus', &
+      'modulus of the top foil at its mean temperature, over its `youngs_modulus`; of several '// &
+      'pads the mean', asked=.true.), &
+    result_type('modulus_ratio_top_foil_<n>', '1', number, bearing, 'the same of pad n'), &
+    result_type('modulus_ratio_bumps', '1', number, bearing, &
+      'modulus of the bumps over their youngs_modulus', &
+      'modulus of the bumps, halfway between top foil and sleeve, over their `youngs_modulus`; '// &
+      'of several pads the mean', asked=.true.), &
+    result_type('modulus_ratio_bumps_<n>', '1', number, bearing, 'the same of pad n')]
 
   type(result_type), parameter :: transients(*) = [ &
     result_type('time', 's', number, transient, &

@@ -9,7 +9,7 @@ module gfb_bearing_summary
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
-  use gfb_heat_answer, only: heat_answer_type
+  use gfb_heat_answer, only: heat_answer_type, heat_share_type
   implicit none (type, external)
   private
   public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block, &
@@ -171,6 +171,7 @@ contains
       call add_result(list, 'mass_flow_sides', whole%sides)
       call add_result(list, 'running_clearance', heat%running_clearance)
       call add_result(list, 'energy_imbalance', heat%imbalance)
+      if (heat%softens) call add_moduli('', whole)
     end associate
     do i = 1, merge(size(heat%pad), 0, size(heat%pad) > 1)
       associate (pad => heat%pad(i))
@@ -185,8 +186,21 @@ contains
         call add_result(list, 'heat_through_bumps_'//text(i), pad%through_bumps)
         call add_result(list, 'heat_to_channel_'//text(i), pad%to_channel)
         call add_result(list, 'heat_by_gas_'//text(i), pad%by_gas)
+        if (heat%softens) call add_moduli('_'//text(i), pad)
       end associate
     end do
+
+  contains
+
+    !> Adds what is left of the moduli of foils.
+    subroutine add_moduli(behind, share)
+      character(len=*), intent(in) :: behind !! the name
+      type(heat_share_type), intent(in) :: share
+      if (heat%top_foil_bends) then
+        call add_result(list, 'modulus_ratio_top_foil'//behind, share%modulus(1))
+      end if
+      call add_result(list, 'modulus_ratio_bumps'//behind, share%modulus(2))
+    end subroutine add_moduli
   end subroutine add_heat
 
   !> Adds what each of several pads does.
@@ -354,6 +368,7 @@ contains
   subroutine show_heat(log, heat)
     type(run_log_type), intent(in) :: log
     type(heat_answer_type), intent(in) :: heat
+    character(len=:), allocatable :: words
 
     associate (whole => heat%whole)
       call log%line('heat             '//share('to the shaft', whole%to_shaft)//', '// &
@@ -375,6 +390,14 @@ contains
       end if
       call log%line('clearance        '//engineering_text(heat%running_clearance, 'um', &
                                                           1.0e6_wp)//' when it runs')
+      if (heat%softens) then
+        words = ''
+        if (heat%top_foil_bends) words = text(whole%modulus(1), 4)//' in the top foil, '
+        call log%line('modulus          '//words//text(whole%modulus(2), 4)//' in the bumps, '// &
+                      'over youngs_modulus')
+      end if
+      if (heat%off_table) call log%line('note: some foil is hotter or colder than the table or '// &
+                    'the slope of its modulus goes: there it is as at the end')
     end associate
 
   contains

@@ -62,11 +62,12 @@ module gfb_plausible_values
     range_type(200.0_wp, 1300.0_wp, 'K', 'degC', &
                'thermal%ambient_temperature thermal%shaft_temperature '// &
                'thermal%shaft_far_temperature thermal%shaft_end_temperature '// &
-               'thermal%top_foil_temperature thermal%reference_temperature'), &
+               'thermal%top_foil_temperature thermal%reference_temperature '// &
+               'thermal%modulus_temperatures'), &
     range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'thermal%cooling_temperature '// &
                'thermal%sleeve_temperature thermal%sleeve_far_temperature'), &
     range_type(300.0_wp, 1.6e4_wp, 'J/(kg K)', 'J/(g K)', 'thermal%specific_heat'), &
-    range_type(0.1_wp, 2.0_wp, '1', '%', 'thermal%prandtl'), &
+    range_type(0.1_wp, 2.0_wp, '1', '%', 'thermal%prandtl thermal%modulus_ratios'), &
     range_type(1.0e-4_wp, 1.0e3_wp, 'W/K', 'mW/K', &
                'thermal%shaft_conductance thermal%sleeve_conductance '// &
                'thermal%shaft_end_conductance'), &
@@ -171,6 +172,7 @@ module gfb_plausible_values
     reason_type('bump_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%shaft_poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%carry_over', 'from 0 to 1 by its rule'), &
+    reason_type('thermal%modulus_slope', 'leaves more than 0.1 by its rule'), &
     reason_type('contact%exponent', 'bounded by its rule'), &
     reason_type('mesh%edge_refinement', 'from 1 to 100 by its rule'), &
     reason_type('accuracy%target', 'between 0 and 1 by its rule'), &

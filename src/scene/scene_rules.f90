@@ -29,6 +29,7 @@ module gfb_scene_rules
   public :: check_groups, is_symmetric, heat_mirrors, solves_one_pad
 
   character(len=*), parameter :: heat = 'thermal' !! the group
+  character(len=*), parameter :: moduli = 'modulus_temperatures, modulus_ratios, modulus_slope'
 
 contains
 
@@ -127,6 +128,14 @@ contains
       call keys%rule(heat, 'carry_over', scene%bearing%leading_edge_condition == &
                      leading_edge_periodic .and. keys%meant(heat, 'carry_over'), 'has no use '// &
                      "with leading_edge_condition = 'periodic': a full ring has no slit")
+      call keys%refuse(heat, moduli, scene%model%foil == foil_rigid, 'has no use with foil = '// &
+                       "'rigid': nothing bends")
+      call keys%refuse(heat, moduli, scene%model%foil == foil_elastic_foundation .and. &
+                       keys%meant('model', 'foundation_stiffness'), 'has no use with '// &
+                       'foundation_stiffness in &model, which no modulus changes')
+      call keys%refuse(heat, moduli, max(scene%foil_damping%foundation_damping, &
+                       scene%foil_damping%arm%stiffness) > 0.0_wp, 'must not be given with '// &
+                       'foundation_damping or maxwell_stiffness in &foil_damping, in this version')
       if (meshes_foils(scene%model%foil)) return
       call keys%rule('top_foil', 'thickness', thermal%top_foil == foil_sheet .and. .not. &
                      keys%meant('top_foil', 'thickness'), 'must be given: top_foil is '// &

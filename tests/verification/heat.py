@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Heat of film, foils and walls: an independent solution, the isothermal film, energy that closes, half the width, ranks, pads
-turned around, vibrations and motions at temperatures that stay.
+turned around, vibrations and motions at temperatures that stay, foils that soften.
 
 `--long` has all scenes of the reference and biquadratic elements, too."""
 
@@ -155,6 +155,54 @@ def check_motion(checks, folder):
                  1.0e-9)
 
 
+def foils_at(moduli, foil, **more):
+    """Walls and top foil at temperatures that are given, foils with given moduli of top foil and bumps."""
+    metal = {"thickness": 1.02e-4, "poissons_ratio": 0.29}
+    groups = changed(on_mesh(BY_NAME["walls_given"], 104, 4))
+    groups["thermal"] = {"shaft": "given", "shaft_temperature": 400.0, "top_foil": "given", "top_foil_temperature": 420.0,
+                         "sleeve": "given", "sleeve_temperature": 350.0, "bump_conductance": 190.0}
+    groups["model"] = foil
+    groups["scene"] = {"analysis": "equilibrium"}
+    groups["operation"] = {"speed_rpm": 30000.0, "load": (-20.0, 0.0)}
+    groups["top_foil"] = {"thickness": 1.02e-4}
+    groups["bump_foil"] = metal | {"youngs_modulus": moduli[1], "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "bumps": 26}
+    if foil["foil"] in ("beam", "shell"):
+        groups["top_foil"] = metal | {"youngs_modulus": moduli[0], "fixed_edge": "trailing", "density": 8280.0, "free_radius": 1.91e-2}
+        groups["bump_foil"] |= {"fixed_edge": "trailing", "density": 8280.0}
+        groups["contact"] = {"friction_top": 0.1, "friction_sleeve": 0.1, "normal_stiffness": 1.0e12, "stick_length": 1.0e-7}
+        groups["mesh"] |= {"arc_elements": 4, "flat_elements": 1}
+        if "dynamics" in more:
+            groups["foil_damping"] = {"foil_mass": "on"}
+    return changed(groups, solver=TIGHT, **more)
+
+
+def check_modulus(checks, folder):
+    """Foils whose modulus follows their temperature: as with the modulus that they have there, of every model, moving, too; energy
+    closes; half the width, two ranks."""
+    modulus, ratios = 214.0e9, (0.86, 0.9 + 0.1*15.0/107.0)  # at 420 K, at 385 K
+    table = {"modulus_temperatures": (293.0, 400.0, 600.0), "modulus_ratios": (1.0, 0.9, 0.5)}
+    vibrating = {"scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequency_ratios": 1.0, "loss_factor": 0.1}}
+    for name, foil, more in (("springs", {"foil": "elastic_foundation"}, vibrating), ("beams", {"foil": "beam"}, {}),
+                             ("local springs", {"foil": "elastic_foundation", "foundation_pressure": "local"}, vibrating),
+                             ("shells", {"foil": "shell"}, vibrating)):
+        typed = solve(folder, "typed", foils_at([modulus*ratio for ratio in ratios], foil, **more))
+        follows = solve(folder, "follows", changed(foils_at((modulus, modulus), foil, **more), thermal=table))
+        names = ("eccentricity_x", "eccentricity_y", "minimum_gap", "friction_torque", "heat_to_shaft")
+        names += ("stiffness_xx", "stiffness_xy", "damping_xx", "damping_yy") if more else ()
+        checks.below(f"{name} that soften, against their modulus typed", largest_difference(
+            [follows[key]/typed[key] for key in names], [1.0]*len(names)), 1.0e-9)
+        checks.below(f"{name}: what is left of the bumps' modulus", follows["modulus_ratio_bumps"]/ratios[1] - 1.0, 1.0e-12)
+    walls = {key: value for key, value in BY_NAME["load_growth"]["groups"]["thermal"].items()}
+    groups = foils_at((modulus, modulus), {"foil": "shell"})
+    groups["thermal"] = walls | {"modulus_slope": -5.0e-3, "reference_temperature": 293.15}
+    half = solve(folder, "half", groups)
+    checks.below("shells that soften: energy", half["energy_imbalance"], 1.0e-9)
+    for words, other in (("whole width", solve(folder, "whole", changed(groups, model={"half_width": "no"}))),
+                         ("two ranks", solve(folder, "ranks", groups, 2))):
+        keys = ("eccentricity_x", "minimum_gap", "shaft_temperature", "modulus_ratio_top_foil", "modulus_ratio_bumps")
+        checks.below(f"shells that soften: {words}", largest_difference([other[key]/half[key] for key in keys], [1.0]*len(keys)), 1.0e-8)
+
+
 def check_accuracy(checks, folder):
     """The error that meshes tell of a heat, against the reference."""
     scene = BY_NAME["load_growth"]
@@ -189,6 +237,7 @@ def main():
         check_couette(checks, folder)
         check_same(checks, folder)
         check_motion(checks, folder)
+        check_modulus(checks, folder)
         check_accuracy(checks, folder)
     checks.close()
 

@@ -138,8 +138,10 @@ def check_heat(checks, folder):
     check_differences(checks, folder, "asperities with heat", touching, {"thermal%shaft_expansion": 3.0e-5},
                       NAMES + ("shaft_temperature", "heat_by_gas", "running_clearance"))
     plain = tuple(name for name in HEAT_NAMES if name not in ("cooling_outlet_temperature", "heat_to_channel"))
-    check_differences(checks, folder, "shells with heat", with_keys(foils("shell", 0.1), gas=gas, thermal={**heat, "shaft_conductance": 0.3}),
-                      {"thermal%shaft_conductance": 1.0e-4, "bump_foil%thickness": 1.0e-4, "gas%ambient_pressure": 3.0e-5}, NAMES + plain)
+    softening = {**heat, "shaft_conductance": 0.3, "modulus_slope": -3.0e-3}
+    check_differences(checks, folder, "shells with heat, which soften", with_keys(foils("shell", 0.1), gas=gas, thermal=softening), {
+        "thermal%shaft_conductance": 1.0e-4, "thermal%modulus_slope": 1.0e-4, "bump_foil%youngs_modulus": 3.0e-4,
+        "bump_foil%thickness": 1.0e-4, "gas%ambient_pressure": 3.0e-5}, NAMES + plain)
 
 
 def check_foils(checks, folder):

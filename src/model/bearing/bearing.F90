@@ -26,7 +26,7 @@ module gfb_bearing
   use gfb_blocks, only: blocks_type, block_type, create_blocks
   use gfb_local_exchange, only: local_exchange_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_heat, only: film_heat_type, number_heat, growth_of, heat_scale, heat_sizes
+  use gfb_bearing_heat, only: film_heat_type, number_heat, growth_of, moduli_at, heat_scale, heat_sizes
   implicit none (type)
   private
   public :: begin_contact_path, next_contact, switch_contact, number_unknowns, scale_unknowns
@@ -58,6 +58,7 @@ module gfb_bearing
     procedure :: local_size, film_nodes, film_temperature, film_pressure, put_pressure, film_force, is_meshed
     procedure :: has_contacts
     procedure :: gap => bearing_gap
+    procedure :: modulus => bearing_modulus
     procedure :: solid_pressure
     procedure :: position => bearing_position
     procedure :: eccentricity => bearing_eccentricity
@@ -231,12 +232,27 @@ contains
     do i = 1, size(self%pad)
       associate (pad => self%pad(i))
         associate (h => gap(pad%first_node + 1:pad%last_node))
-          h = pad%gap(self%position(unknown, point), unknown(pad%first + 1:pad%last))
+          h = pad%gap(self%position(unknown, point), unknown(pad%first + 1:pad%last), self%modulus(i, unknown, point))
           if (self%heat%present) h = h - growth_of(self%heat, pad%mesh%mesh_node, pad%whole%rows(), self%position(unknown, point), unknown)
         end associate
       end associate
     end do
   end function bearing_gap
+
+  !> Moduli of a pad's top foil and bumps over those that are typed, for local unknowns [1].
+  pure function bearing_modulus(self, i, unknown, point) result(modulus)
+    class(bearing_type), intent(in) :: self !! the bearing
+    integer, intent(in) :: i !! of the pad
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(operating_point_type), intent(in), optional :: point !! default: the present one
+    real(wp) :: modulus(2), rate(2), part
+
+    modulus = self%pad(i)%foil%modulus
+    if (.not. self%heat%softens()) return
+    part = self%point%growth
+    if (present(point)) part = point%growth
+    call moduli_at(self%heat, i, part, unknown, modulus, rate)
+  end function bearing_modulus
 
   !> Pressure of the shaft's asperities at this rank's film nodes, pad by pad [Pa].
   function solid_pressure(self, unknown) result(pressure)

@@ -89,7 +89,8 @@ contains
         call read_film(bearing, pad, pressure(pad%first_node + 1:pad%last_node), &
                        gap(pad%first_node + 1:pad%last_node), bearing%position(unknown), whole, &
                        sums(:, i), most(:, i))
-        if (whole) most(8, i) = maxval(pad%foil%deflection(unknown(pad%first + 1:pad%last)))
+        if (whole) most(8, i) = maxval(pad%foil%deflection(unknown(pad%first + 1:pad%last), &
+                                                             bearing%modulus(i, unknown)))
         if (whole) most(9:, i) = contact_extremes(pad%foil%contacts)
         if (whole) contact(:, i) = contact_sums(pad%foil%contacts)
       end associate

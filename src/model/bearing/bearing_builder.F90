@@ -201,6 +201,7 @@ contains
       heat%cooling = given%cooling_flow*given%specific_heat
       heat%cooling_temperature = given%cooling_temperature
       heat%arc = bearing%radius*pad_angle(bearing)*real(bearing%pads, wp)
+      heat%modulus = given%modulus
     end associate
   end function heat_of
 

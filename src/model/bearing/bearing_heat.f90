@@ -2,15 +2,17 @@
 !>
 !> Unknowns of a film node are the temperatures of gas and top foil. Those of all walls stand behind
 !> those of all pads, on the last rank: of the shaft (one, or one a row), the sleeve, each pad's
-!> slit, the channel along the bumps (one a row).
+!> slit, the mean of each pad's top foil (where the modulus of foils follows it), the channel along
+!> the bumps (one a row).
 module gfb_bearing_heat
   use gfb_kinds, only: wp
   use gfb_heated_film, only: heated_gas_type, wall_given, wall_fin
+  use gfb_modulus_law, only: modulus_law_type
   use gfb_gas_film, only: gas_film_type
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
-  public :: number_heat, growth_of, temperatures_at, heat_sizes, row_of
+  public :: number_heat, growth_of, moduli_at, temperatures_at, heat_sizes, row_of
 
   real(wp), parameter, public :: heat_scale = 100.0_wp !! size of a temperature [K]
 
@@ -44,12 +46,13 @@ module gfb_bearing_heat
     real(wp) :: cooling = 0.0_wp     !! w c_p of it [W/K]
     real(wp) :: cooling_temperature = 0.0_wp !! where it enters [K]
     real(wp) :: arc = 0.0_wp         !! of all pads together [m]
+    type(modulus_law_type) :: modulus !! of the foils over their temperature
     integer, allocatable :: first(:) !! local unknowns of the bearing before those of each pad
     integer :: first_wall = 0        !! the same of the walls
     integer :: walls = 0             !! unknowns
     integer :: shafts = 1, channels = 0 !! unknowns of shaft and channel
   contains
-    procedure :: shaft_wall, channel_wall, sleeve_wall, inlet_wall, grows
+    procedure :: shaft_wall, channel_wall, sleeve_wall, inlet_wall, mean_wall, grows, softens
   end type film_heat_type
 
 contains
@@ -59,6 +62,12 @@ contains
     class(film_heat_type), intent(in) :: self !! heat
     grows = self%present .and. max(self%shaft%growth, self%sleeve%growth) > 0.0_wp
   end function grows
+
+  !> Whether temperatures change the modulus of the foils.
+  pure logical function softens(self)
+    class(film_heat_type), intent(in) :: self !! heat
+    softens = self%present .and. self%modulus%is_given()
+  end function softens
 
   !> Number of the wall that a row of nodes sees of the shaft.
   pure integer function shaft_wall(self, row) result(wall)
@@ -80,6 +89,13 @@ contains
     wall = self%shafts + 1 + pad
   end function inlet_wall
 
+  !> That of the mean temperature of a pad's top foil, where the modulus follows it.
+  pure integer function mean_wall(self, pad) result(wall)
+    class(film_heat_type), intent(in) :: self !! heat
+    integer, intent(in) :: pad !! its number
+    wall = self%inlet_wall(size(self%first)) + pad
+  end function mean_wall
+
   !> That of the channel at a row of nodes.
   pure integer function channel_wall(self, row) result(wall)
     class(film_heat_type), intent(in) :: self !! heat
@@ -95,7 +111,7 @@ contains
 
     heat%shafts = merge(rows, 1, heat%shaft%kind == wall_fin)
     heat%channels = merge(rows, 0, max(heat%cooling, heat%channel, heat%channel_sleeve) > 0.0_wp)
-    heat%walls = heat%shafts + 1 + pads + heat%channels
+    heat%walls = heat%shafts + 1 + pads*merge(2, 1, heat%softens()) + heat%channels
   end subroutine number_heat
 
   !> Sizes of the equations of heat: conduction through a cell of the film, through all of it [W].
@@ -115,6 +131,11 @@ contains
         associate (slits => scale(walls + heat%inlet_wall(1):))
           slits(:size(heat%first)) = through*area/heat%gas%specific_heat
         end associate
+        if (heat%softens()) then
+          associate (means => scale(walls + heat%mean_wall(1):))
+            means(:size(heat%first)) = heat_scale*area/real(size(heat%first), wp)
+          end associate
+        end if
       end associate
     end associate
   end function heat_sizes
@@ -140,6 +161,25 @@ contains
       end do
     end associate
   end function growth_of
+
+  !> Moduli of a pad's top foil and bumps over those that are typed: at its mean temperature, and at
+  !> the mean of that and the sleeve's. Derivatives: of the first by its mean temperature, of the
+  !> second by either.
+  pure subroutine moduli_at(heat, pad, part, unknown, ratio, rate)
+    type(film_heat_type), intent(in) :: heat !! of the bearing, whose foils soften
+    integer, intent(in) :: pad !! its number
+    real(wp), intent(in) :: part !! of what temperatures do [1]
+    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
+    real(wp), intent(out) :: ratio(2), rate(2)
+
+    associate (mean => unknown(heat%first_wall + heat%mean_wall(pad)), &
+               sleeve => unknown(heat%first_wall + heat%sleeve_wall()))
+      associate (top => heat%modulus%at(mean), bumps => heat%modulus%at(0.5_wp*(mean + sleeve)))
+        ratio = 1.0_wp + part*([top(1), bumps(1)] - 1.0_wp)
+        rate = part*[top(2), 0.5_wp*bumps(2)]
+      end associate
+    end associate
+  end subroutine moduli_at
 
   !> Temperatures at nodes of a pad's film: (nodes, 3) of gas, top foil and shaft [K].
   pure function temperatures_at(heat, pad, mesh_node, rows, unknown) result(temperature)

@@ -7,7 +7,6 @@ module gfb_bearing_system
   use gfb_foil_model, only: foil_model_type
   use gfb_film_load, only: acts_on, film_forces
   use gfb_film_surface, only: translations
-  use gfb_matrix_rows, only: copy_row
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type, visit_point
   use gfb_pad, only: pad_place_type, complete_pad, place_pads
@@ -22,9 +21,10 @@ module gfb_bearing_system
   use gfb_local_exchange, only: create_exchange
   use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian, walls_of
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
+  use gfb_foil_rows, only: add_of_foil, soften_foils, add_softness
   implicit none (type)
   private
-  public :: create_bearing_system, set_up_equations, free_equations, heat_flows, number_by, add_of_foil, bearing_order, path_order, visit_bearing, visit_switches
+  public :: create_bearing_system, set_up_equations, free_equations, heat_flows, number_by, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
@@ -161,7 +161,7 @@ contains
       call number_by(bearing, i, bearing%jacobian)
       state%shaft = shaft_of(bearing, i)
       state%growth = growth_of(bearing, i, bearing%point)
-      call add_of_foil(bearing, bearing%pad(i)%foil%elastic, i, .true., bearing%jacobian)
+      call add_of_foil(bearing%blocks, bearing%pad(i)%foil, i, bearing%pad(i)%foil%elastic, [1.0_wp, 1.0_wp], .true., bearing%jacobian)
       do k = 1, size(bearing%term)
         if (associated(bearing%term(k)%add_constant)) call bearing%term(k)%add_constant(bearing%pad(i), state, bearing%jacobian)
       end do
@@ -170,6 +170,7 @@ contains
     if (bearing%heat%present) then
       call add_heat_jacobian(bearing%heat, bearing%pad, bearing%point, bearing%coordinate, bearing%first_shaft, nothing, &
                              nothing, nothing, bearing%last_rank, .true., bearing%jacobian)
+      call add_softness(bearing%blocks, bearing%heat, bearing%pad, 0.0_wp, nothing, .true., bearing%jacobian)
     end if
     if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(shaft_of(bearing, 0), 0.0_wp*hold_stiffness(bearing, bearing%point, .false.), bearing%jacobian)
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
@@ -180,32 +181,6 @@ contains
     PetscCallA(MatDuplicate(bearing%constant, MAT_COPY_VALUES, bearing%jacobian, ierr))
     PetscCallA(MatSetOption(bearing%jacobian, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE, ierr))
   end subroutine fill_constant
-
-  !> Adds a matrix of a pad's foil, in its own numbers.
-  subroutine add_of_foil(bearing, of_foil, pad, keeps_diagonal, matrix)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    Mat, intent(in) :: of_foil !! the same one for each pad
-    integer, intent(in) :: pad !! which
-    logical, intent(in) :: keeps_diagonal !! also where it is zero
-    Mat, intent(in) :: matrix !! like the bearing's
-    PetscInt :: first, last, row, entries, number(maxval([0, bearing%pad(pad)%foil%row_entries]))
-    PetscInt, allocatable :: renumbered(:)
-    PetscScalar :: value(size(number))
-    PetscErrorCode :: ierr
-    integer, allocatable :: kept(:)
-    integer :: i
-
-    associate (blocks => bearing%blocks, foil_block => 2*pad)
-      PetscCallA(MatGetOwnershipRange(of_foil, first, last, ierr))
-      do row = first, last - 1
-        call copy_row(of_foil, row, entries, number, value)
-        ! Membrane and bending of a condensed flat do not know each other either: exact zeros fill half of its block.
-        kept = pack([(i, i=1, int(entries))], abs(value(:entries)) > 0.0_wp .or. (keeps_diagonal .and. number(:entries) == row))
-        renumbered = [(int(blocks%global_number(foil_block, int(number(kept(i))) + 1), pint), i=1, size(kept))]
-        PetscCallA(MatSetValues(matrix, 1_pint, [int(blocks%global_number(foil_block, int(row) + 1), pint)], size(kept, 1, pint), renumbered, value(kept), ADD_VALUES, ierr))
-      end do
-    end associate
-  end subroutine add_of_foil
 
   !> A pad's part of a state.
   pure function state_of(bearing, i, point, unknown, gap, fixed) result(state)
@@ -297,6 +272,7 @@ contains
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%get_unknowns(unknown, state)
     here = self%position(unknown, point)
+    call soften_foils(self%heat, here%growth, unknown, self%pad)
     gap = self%gap(unknown, point)
     value = 0.0_wp
     valid = is_open(self, here, unknown, gap)
@@ -432,6 +408,7 @@ contains
     self%times_filled = self%times_filled + 1
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
     call self%get_unknowns(unknown, state)
+    call soften_foils(self%heat, point%growth, unknown, self%pad)
     gap = self%gap(unknown, point)
     if (self%is_meshed()) then
       PetscCallA(MatCopy(self%constant, self%jacobian, SAME_NONZERO_PATTERN, ierr))
@@ -454,6 +431,7 @@ contains
       call add_heat_jacobian(self%heat, self%pad, self%position(unknown, point), self%coordinate, self%first_shaft, unknown, gap, &
                              flow, self%last_rank, .false., self%jacobian)
     end if
+    call add_softness(self%blocks, self%heat, self%pad, point%growth, unknown, .false., self%jacobian)
     if (self%floats .and. self%last_rank) call add_shaft_stiffness(shaft_of(self, 0), hold_stiffness(self, point, fixed), self%jacobian)
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))

@@ -3,8 +3,9 @@
 !> slit, cooling gas along the bumps.
 !>
 !> Unknowns of a film node are the gas' and the top foil's temperature; those of all walls follow those of all pads, on the last
-!> rank: of the shaft (one, or one a row), the sleeve, each pad's slit, the channel (one a row). What lies along the axis alone
-!> (a fin, a channel) is weighted over the film's elements, as all else: so energy closes to round-off.
+!> rank: of the shaft (one, or one a row), the sleeve, each pad's slit, the mean of each pad's top foil where the modulus of foils
+!> follows it, the channel (one a row). What lies along the axis alone (a fin, a channel) is weighted over the film's elements, as
+!> all else: so energy closes to round-off.
 module gfb_film_heat
   use petscmat
   use gfb_kinds, only: wp
@@ -13,7 +14,7 @@ module gfb_film_heat
   use gfb_heated_film, only: heated_state_type, heated_residual, heated_jacobian, heated_rows, heated_fields, &
                              row_mass, row_energy, row_foil, row_shaft, field_pressure, field_gap, field_gas, field_foil, &
                              field_shaft, wall_given, wall_conductance
-  use gfb_bearing_heat, only: film_heat_type, row_of
+  use gfb_bearing_heat, only: film_heat_type, moduli_at, row_of
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   implicit none (type)
@@ -182,10 +183,23 @@ contains
           do k = 1, size(row) ! some are the same
             if (row(k) > 0) residual(row(k)) = residual(row(k)) + all_rows(k)
           end do
+          if (heat%softens()) then
+            associate (mean => heat%first_wall + heat%mean_wall(i), foil => heat%first(i) + 2*film%element_nodes(:, element))
+              residual(mean) = residual(mean) + dot_product(nodal_areas(pad, element), unknown(foil) - unknown(mean))
+            end associate
+          end if
         end do
       end associate
     end do
   end subroutine add_heat_residual
+
+  !> Weights of a field's values at the nodes of an element in its integral [m2].
+  pure function nodal_areas(pad, element) result(area)
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: element
+    real(wp) :: area(size(pad%film%shape, 1))
+    area = matmul(pad%film%shape, pad%film%geometry(element)%area)
+  end function nodal_areas
 
   !> Adds the heat that elements give to the shaft around each film node, and their area there.
   pure subroutine add_shaft_flux(heat, pads, point, unknown, gap, flux, area)
@@ -206,7 +220,7 @@ contains
                                state_of(heat, pad, i, element, point, unknown, gap(pad%first_node + 1:pad%last_node)), share)
           associate (place => pad%first + film%element_nodes(:, element))
             flux(place) = flux(place) + share(:, row_shaft)
-            area(place) = area(place) + matmul(film%shape, film%geometry(element)%area)
+            area(place) = area(place) + nodal_areas(pad, element)
           end associate
         end do
       end associate
@@ -387,7 +401,7 @@ contains
 
     n = size(pads(1)%film%shape, 1)
     ! a row of the matrix in each column, as PETSc reads it
-    allocate (block(6*n + 1 + size(coordinate), 5*n + 3))
+    allocate (block(6*n + 2 + size(coordinate), 5*n + 3))
     if (.not. room) slit = slits_of(heat, pads, unknown, flow)
     do i = 1, size(pads)
       next = pad_after(pads, i)
@@ -397,7 +411,7 @@ contains
             row = [element_rows(heat, pad, i, element), heat%first_wall + heat%inlet_wall(i), heat%first_wall + heat%inlet_wall(next)]
             column = [pad%first + nodes, heat%first(i) + 2*nodes - 1, element_walls(heat, pad, i, element), &
                       merge(0, pad%first + foil%source(nodes), foil%source(nodes) == nodes .or. foil%source(nodes) == 0), &
-                      [(first_shaft + k, k=1, size(coordinate))]]
+                      [(first_shaft + k, k=1, size(coordinate))], mean_of(heat, pad, i)]
             if (heat%channels == 0) column(4*n + 1:5*n) = 0
             block = 0.0_wp
             if (.not. room) then
@@ -407,6 +421,7 @@ contains
             where (pad%film%fixed(nodes)) row(:n) = 0
             if (.not. any(is_leading(pad, nodes) .or. is_trailing(pad, nodes))) row(5*n + 2:) = 0
             call put_block(matrix, row, column, block)
+            if (heat%softens()) call put_mean(heat, i, nodes, merge(0.0_wp, 1.0_wp, room)*nodal_areas(pad, element), matrix)
           end associate
         end do
       end associate
@@ -415,8 +430,31 @@ contains
     if (last_rank) call add_wall_rates(heat, pads, slit, merge(0.0_wp, 1.0_wp, room), matrix)
   end subroutine add_heat_jacobian
 
-  !> Derivatives of what an element says: by pressure, gas, foil, shaft, channel, sleeve, what moves the foil, and the shaft's
-  !> coordinates.
+  !> Local unknown of the mean temperature of a pad's top foil where it moves the gap: of springs without unknowns; else 0.
+  pure integer function mean_of(heat, pad, number) result(mean)
+    type(film_heat_type), intent(in) :: heat
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: number !! of the pad
+
+    mean = 0
+    if (heat%softens() .and. pad%foil%local_unknowns() == 0) mean = heat%first_wall + heat%mean_wall(number)
+  end function mean_of
+
+  !> Derivatives of an element's part of the equation of the mean temperature of a pad's top foil.
+  subroutine put_mean(heat, number, nodes, area, matrix)
+    type(film_heat_type), intent(in) :: heat
+    integer, intent(in) :: number !! of the pad
+    integer, intent(in) :: nodes(:) !! of the element
+    real(wp), intent(in) :: area(:) !! of each; 0: makes room [m2]
+    Mat, intent(in) :: matrix
+
+    associate (mean => heat%first_wall + heat%mean_wall(number))
+      call put_block(matrix, [mean], [heat%first(number) + 2*nodes, mean], reshape([area, -sum(area)], [size(area) + 1, 1]))
+    end associate
+  end subroutine put_mean
+
+  !> Derivatives of what an element says: by pressure, gas, foil, shaft, channel, sleeve, what moves the foil, the shaft's
+  !> coordinates, and the mean temperature of the top foil.
   subroutine put_element(heat, pad, number, element, point, coordinate, unknown, gap, block)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pad
@@ -427,10 +465,17 @@ contains
     real(wp), intent(in) :: unknown(:), gap(:)
     real(wp), intent(inout) :: block(:, :) !! zero before
     real(wp) :: by(size(pad%film%shape, 1), heated_rows, size(pad%film%shape, 1), heated_fields)
-    real(wp) :: by_excess(size(by, 1), heated_rows, size(by, 1)), factor(heated_rows)
+    real(wp) :: by_excess(size(by, 1), heated_rows, size(by, 1)), factor(heated_rows), sinking(size(by, 1)), ratio(2), rate(2)
     integer :: k, b, c, n, mover
 
     n = size(by, 1)
+    sinking = 0.0_wp
+    if (mean_of(heat, pad, number) > 0) then
+      call moduli_at(heat, number, point%growth, unknown, ratio, rate)
+      associate (nodes => pad%film%element_nodes(:, element), deflection => pad%foil%deflection(unknown(pad%first + 1:pad%last), ratio))
+        sinking = -deflection(nodes)*rate(2)/ratio(2)
+      end associate
+    end if
     associate (film => pad%film, foil => pad%foil, nodes => pad%film%element_nodes(:, element))
       call heated_jacobian(film%geometry(element), film%flow_at(point), heat%gas, &
                            state_of(heat, pad, number, element, point, unknown, gap), by, by_excess)
@@ -446,6 +491,8 @@ contains
           part(2*n + 1:3*n, :) = part(2*n + 1:3*n, :) + transpose(by(:, k, :, field_foil))
           part(3*n + 1:4*n, :) = part(3*n + 1:4*n, :) + transpose(by(:, k, :, field_shaft) - point%growth*heat%shaft%growth*by_gap)
           part(5*n + 1, :) = part(5*n + 1, :) + point%growth*heat%sleeve%growth*sum(by_gap, 2)
+          part(6*n + 2 + size(coordinate), :) = matmul(by_gap, sinking)
+          part(5*n + 1, :) = part(5*n + 1, :) + matmul(by_gap, sinking)
           do b = 1, n
             mover = merge(b, 5*n + 1 + b, foil%source(nodes(b)) == nodes(b)) ! springs: the pressure itself
             part(mover, :) = part(mover, :) + foil%rate(nodes(b))*by_gap(:, b)

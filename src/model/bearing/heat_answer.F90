@@ -6,7 +6,7 @@ module gfb_heat_answer
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
   use gfb_heated_film, only: heated_residual, heated_shear, mean_over_gap, heated_state_type, heated_rows, row_foil, row_shaft, field_gas, &
                              field_foil, field_gap, field_shaft
-  use gfb_bearing_heat, only: film_heat_type, growth_of
+  use gfb_bearing_heat, only: film_heat_type, growth_of, moduli_at
   use gfb_film_heat, only: state_of, walls_of, feed, is_leading, is_trailing
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
@@ -28,6 +28,7 @@ module gfb_heat_answer
     real(wp) :: through_bumps = 0.0_wp, to_channel = 0.0_wp !! out of the top foil [W]
     real(wp) :: by_gas = 0.0_wp                   !! carried out less carried in [W]
     real(wp) :: leading = 0.0_wp, trailing = 0.0_wp, sides = 0.0_wp !! flow in, out, out [kg/s]
+    real(wp) :: modulus(2) = 1.0_wp !! of top foil and bumps over the typed ones; of all pads the mean [1]
   end type heat_share_type
 
   !> All that is said of heat.
@@ -40,6 +41,9 @@ module gfb_heat_answer
     real(wp) :: cooling_outlet_temperature = 0.0_wp !! [K]
     real(wp) :: running_clearance = 0.0_wp          !! C less all growth, mean [m]
     real(wp) :: imbalance = 0.0_wp                  !! power less all heat, over the power [1]
+    logical :: softens = .false.                    !! the modulus of foils follows their temperature
+    logical :: top_foil_bends = .false.             !! then: that of the top foil counts, too
+    logical :: off_table = .false.                  !! some foil is hotter or colder than its table
   end type heat_answer_type
 
 contains
@@ -67,6 +71,8 @@ contains
       answer%present = .true.
       answer%pad = [(share_of(sum_of(:, i), most(:, i), wall(heat%inlet_wall(i))), i=1, size(pads))]
       answer%whole = share_of(sum(sum_of, 2), maxval(most, 2), sum(answer%pad%inlet_temperature)/real(size(pads), wp))
+      if (heat%softens()) call read_moduli(heat, point, unknown, answer)
+      answer%top_foil_bends = pads(1)%foil%is_meshed()
       associate (all => sum(sum_of, 2))
         answer%shaft_temperature = all(13)/all(3)
         answer%running_clearance = pads(1)%film%clearance - all(14)/all(3)
@@ -79,6 +85,28 @@ contains
       answer%imbalance = (whole%power - whole%to_shaft - whole%to_top_foil - whole%by_gas)/max(whole%power, tiny(1.0_wp))
     end associate
   end function heat_answer
+
+  !> What the temperatures leave of the foils' moduli.
+  pure subroutine read_moduli(heat, point, unknown, answer)
+    type(film_heat_type), intent(in) :: heat
+    type(operating_point_type), intent(in) :: point
+    real(wp), intent(in) :: unknown(:)
+    type(heat_answer_type), intent(inout) :: answer !! with its pads
+    real(wp) :: rate(2)
+    integer :: i
+
+    answer%softens = .true.
+    answer%whole%modulus = 0.0_wp
+    associate (sleeve => unknown(heat%first_wall + heat%sleeve_wall()))
+      do i = 1, size(answer%pad)
+        call moduli_at(heat, i, point%growth, unknown, answer%pad(i)%modulus, rate)
+        answer%whole%modulus = answer%whole%modulus + answer%pad(i)%modulus/real(size(answer%pad), wp)
+        associate (foil => unknown(heat%first_wall + heat%mean_wall(i)))
+          answer%off_table = answer%off_table .or. .not. (heat%modulus%covers(foil) .and. heat%modulus%covers(0.5_wp*(foil + sleeve)))
+        end associate
+      end do
+    end associate
+  end subroutine read_moduli
 
   !> This rank's sums and largest values of a pad.
   subroutine read_pad(heat, pad, number, point, unknown, gap, flow, sum_of, most)

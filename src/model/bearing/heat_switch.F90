@@ -4,6 +4,7 @@ module gfb_heat_switch
   use petscvec
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
+  use gfb_text, only: text
   use gfb_natural_order, only: visit_vector
   use gfb_gas_film, only: frozen_heat_type, freeze_film, frozen_fields, frozen_growth
   use gfb_operating_point, only: operating_point_type
@@ -57,6 +58,7 @@ contains
         film%field(:, :frozen_growth - 1) = temperatures_at(bearing%heat, i, pad%mesh%mesh_node, pad%whole%rows(), unknown)
         film%field(:, frozen_growth) = growth_of(bearing%heat, pad%mesh%mesh_node, pad%whole%rows(), at_rest, unknown)
         call freeze_film(frozen%pad(i)%film, film)
+        call frozen%pad(i)%foil%soften(bearing%modulus(i, unknown))
         deallocate (film%field)
       end associate
     end do
@@ -65,26 +67,29 @@ contains
     call frozen%set_unknowns([unknown(:bearing%heat%first(1)), unknown(bearing%first_shaft + 1:)])
   end subroutine freeze_heat
 
-  !> Gives films that have none the temperatures of others, which are meshed alike; of two bearings both have them.
+  !> Gives films that have none the temperatures of others, which are meshed alike, and foils their moduli; of two bearings both
+  !> have them.
   subroutine follow_frozen(bearing, other)
     type(bearing_system_type), intent(in) :: bearing !! whose temperatures may stay as they are
     type(bearing_system_type), intent(inout) :: other !! without heat
     integer :: i
 
     do i = 1, size(other%pad)
-      associate (film => bearing%pad(modulo(i - 1, size(bearing%pad)) + 1)%film)
-        if (allocated(film%frozen)) call freeze_film(other%pad(i)%film, film%frozen)
+      associate (from => bearing%pad(modulo(i - 1, size(bearing%pad)) + 1))
+        if (.not. allocated(from%film%frozen)) cycle
+        call freeze_film(other%pad(i)%film, from%film%frozen)
+        call other%pad(i)%foil%soften(from%foil%modulus)
       end associate
     end do
   end subroutine follow_frozen
 
-  !> Saves or restores temperatures that stay as they are, and the growth by them. All ranks ask.
+  !> Saves or restores temperatures that stay as they are, the growth and the moduli by them. All ranks ask.
   subroutine visit_frozen(archive, bearing)
     type(archive_type), intent(inout) :: archive !! that saves or restores
     type(bearing_system_type), intent(inout) :: bearing !! whose films may have them
     character(len=*), parameter :: name(frozen_fields) = [character(len=20) :: 'gas_temperature', 'top_foil_temperature', 'shaft_temperature', &
                                                                    'growth']
-    real(wp) :: value(bearing%local_size())
+    real(wp) :: value(bearing%local_size()), modulus(2)
     type(frozen_heat_type) :: film
     Vec :: vector
     PetscErrorCode :: ierr
@@ -110,6 +115,11 @@ contains
       end do
     end do
     PetscCallA(VecDestroy(vector, ierr))
+    do i = 1, size(bearing%pad)
+      modulus = bearing%pad(i)%foil%modulus
+      call archive%visit('modulus_'//text(i), modulus)
+      if (.not. archive%saves) call bearing%pad(i)%foil%soften(modulus)
+    end do
     if (archive%saves) return
     do i = 1, size(bearing%pad)
       film = bearing%pad(i)%film%frozen

@@ -354,13 +354,14 @@ contains
   end subroutine move_crests
 
   !> Gap at this rank's nodes [m].
-  pure function pad_gap(self, point, unknown) result(gap)
+  pure function pad_gap(self, point, unknown, modulus) result(gap)
     class(pad_type), intent(in) :: self !! the pad
     type(operating_point_type), intent(in) :: point !! the shaft's position
     real(wp), intent(in) :: unknown(:)              !! the pad's, in SI
+    real(wp), intent(in) :: modulus(2)              !! of its foils, see `soften`
     real(wp) :: gap(size(self%mesh%mesh_node))
 
-    gap = self%foil%deflection(unknown)
+    gap = self%foil%deflection(unknown, modulus)
     if (allocated(self%held)) gap = gap + self%held
     gap = self%film%gap(point, gap)
   end function pad_gap

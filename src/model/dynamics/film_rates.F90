@@ -13,7 +13,8 @@ module gfb_film_rates
   use gfb_pad_terms, only: shaft_unknowns_type, element_columns, add_block
   use gfb_foil_model, only: foil_model_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type, number_by, add_of_foil
+  use gfb_bearing_system, only: bearing_system_type, number_by
+  use gfb_foil_rows, only: add_of_foil
   implicit none (type)
   private
   public :: fill_film, fill_springs, fill_from_foil, fill_friction, squeeze_column
@@ -173,7 +174,7 @@ contains
       associate (foil => bearing%pad(i)%foil)
         call number_by(bearing, i, matrix)
         call foil%add_springs(matrix)
-        if (foil%is_meshed()) call add_of_foil(bearing, foil%elastic, i, .false., matrix)
+        if (foil%is_meshed()) call add_of_foil(bearing%blocks, foil, i, foil%elastic, foil%modulus, .false., matrix)
       end associate
     end do
     call finish(bearing, matrix)
@@ -189,7 +190,7 @@ contains
 
     PetscCallA(MatZeroEntries(matrix, ierr))
     do i = 1, size(bearing%pad)
-      call add_of_foil(bearing, of_foil, i, .false., matrix)
+      call add_of_foil(bearing%blocks, bearing%pad(i)%foil, i, of_foil, [1.0_wp, 1.0_wp], .false., matrix)
     end do
     call finish(bearing, matrix)
   end subroutine fill_from_foil

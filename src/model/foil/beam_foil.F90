@@ -306,6 +306,7 @@ contains
     call number_stations(foil%bumps%mesh%stations, scene%bump_foil%fixed_edge /= fixed_edge_trailing, unknowns, &
                          foil%bump_number)
     foil%owned = merge(unknowns, 0, mine)
+    foil%owned_top = merge(maxval(foil%top_number), 0, mine)
     foil%top%section = plate_section(scene)
     foil%bumps%section = section_of(scene%bump_foil)
     call own_nodes(mine, foil%top)

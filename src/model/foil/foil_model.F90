@@ -24,6 +24,7 @@ module gfb_foil_model
   !> A foil model: deflection at the film nodes, equations, their derivatives. A rigid one.
   type, public :: foil_model_type
     integer :: owned = 0      !! unknowns of the foil this rank owns
+    integer :: owned_top = 0  !! of these the top foil's, where both are meshed: the first ones
     integer :: first = 0      !! local unknowns of the bearing before the foil's first
     integer :: couplings = 0  !! entries a film node's row needs for the foil, at most
     integer, allocatable :: row_entries(:) !! entries that the row of each owned unknown needs, at most
@@ -39,8 +40,9 @@ module gfb_foil_model
     real(wp), allocatable :: origin(:)         !! x_0, the unknown's value without deflection
     type(contact_set_type) :: contacts         !! this rank's; their unknowns are the local foil unknowns
     real(wp) :: first_hardness = 1.0_wp        !! factor of their stiffness that a first answer begins with
+    real(wp) :: modulus(2) = 1.0_wp            !! Young's, of top foil and bumps, over those that the foil was built with [1]
   contains
-    procedure :: add_residual, add_jacobian, add_constant, add_load_rates, estimate, is_meshed
+    procedure :: add_residual, add_jacobian, add_constant, add_load_rates, estimate, is_meshed, soften, add_modulus_rates
     procedure :: add_mass, natural_numbers, surfaces, own_unknown, motions, nodal_contacts, sizes
     procedure :: destroy, place, local_unknowns, own_part, deflection, has_contacts, settle
     procedure :: begin_step, settle_at, commit, add_springs, put_damping, softest, crest_lengths
@@ -89,6 +91,20 @@ contains
     real(wp), intent(in) :: slope(:, :) !! (3 or 5, film nodes) of the pressure by these unknowns [SI]
     Mat, intent(in) :: jacobian !! of the bearing, by local numbers
   end subroutine add_load_rates
+
+  !> Gives the foils other moduli; `elastic` stays that of those that they were built with.
+  subroutine soften(self, modulus)
+    class(foil_model_type), intent(inout) :: self !! the foil
+    real(wp), intent(in) :: modulus(2) !! of top foil and bumps, over those they were built with [1]
+    self%modulus = modulus
+  end subroutine soften
+
+  !> Adds the derivatives of the foil's equations by the moduli of top foil and bumps. All ranks ask.
+  subroutine add_modulus_rates(self, unknown, rate)
+    class(foil_model_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    real(wp), intent(inout) :: rate(:, :) !! (local unknowns of the bearing, 2) [SI]
+  end subroutine add_modulus_rates
 
   !> Sets the foil's local unknowns to what suits the film's pressures, as a start value.
   subroutine estimate(self, unknown)
@@ -141,9 +157,10 @@ contains
   end function own_unknown
 
   !> Displacements and stresses of each of `surfaces`. All ranks ask.
-  function motions(self, unknown) result(list)
+  function motions(self, unknown, modulus) result(list)
     class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    real(wp), intent(in) :: modulus(2) !! see `soften`
     type(surface_motion_type), allocatable :: list(:)
     allocate (list(0))
   end function motions
@@ -192,9 +209,10 @@ contains
   end function own_part
 
   !> Deflection at the local film nodes, positive away from the shaft [m].
-  pure function deflection(self, unknown) result(moved)
+  pure function deflection(self, unknown, modulus) result(moved)
     class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+    real(wp), intent(in), optional :: modulus(2) !! default: those that it has, see `soften`
     real(wp) :: moved(size(self%source))
     integer :: node
 

@@ -21,10 +21,12 @@ module gfb_foundation_foil
   private
   public :: build_foundation, foundation_stiffness
 
+  integer, parameter :: bumps = 2 !! of the moduli
+
   !> The elastic foundation under the film.
   type, extends(foil_model_type), public :: foundation_foil_type
-    real(wp) :: stiffness = 0.0_wp           !! K of the stations, pressure over deflection [N/m3]
-    real(wp), allocatable :: spring(:)       !! K under each of this rank's nodes, under local pressure [N/m3]
+    real(wp) :: stiffness = 0.0_wp           !! K of the stations with the modulus that is typed, pressure over deflection [N/m3]
+    real(wp), allocatable :: spring(:)       !! the same under each of this rank's nodes, under local pressure [N/m3]
     real(wp) :: ambient_pressure = 0.0_wp    !! p_a [Pa]
     real(wp) :: drag = 0.0_wp                !! of the dampers in a step of time [N/m3]
     real(wp), allocatable :: past_drag(:)    !! what earlier deflections of the owned stations add [Pa]
@@ -37,6 +39,9 @@ module gfb_foundation_foil
     procedure :: add_jacobian => foundation_jacobian
     procedure :: add_load_rates => foundation_load_rates
     procedure :: add_springs => foundation_springs
+    procedure :: soften => soften_foundation
+    procedure :: add_modulus_rates => foundation_modulus_rates
+    procedure :: deflection => foundation_deflection
     procedure :: put_damping => foundation_damping
     procedure :: estimate => foundation_estimate
     procedure :: natural_numbers => foundation_natural_numbers
@@ -176,7 +181,7 @@ contains
 
     do i = 1, size(self%owned_station)
       equation = self%first + self%owned_station(i)
-      residual(equation) = residual(equation) + (self%stiffness + self%drag)*unknown(equation)
+      residual(equation) = residual(equation) + (self%modulus(bumps)*self%stiffness + self%drag)*unknown(equation)
       if (allocated(self%past_drag)) residual(equation) = residual(equation) + self%past_drag(i)
     end do
     do i = 1, size(self%averaged)
@@ -214,7 +219,7 @@ contains
 
     do i = 1, size(self%owned_station)
       row = int(self%first + self%owned_station(i) - 1, pint)
-      PetscCallA(MatSetValuesLocal(matrix, 1_pint, row, 1_pint, row, [self%stiffness + self%drag], ADD_VALUES, ierr))
+      PetscCallA(MatSetValuesLocal(matrix, 1_pint, row, 1_pint, row, [self%modulus(bumps)*self%stiffness + self%drag], ADD_VALUES, ierr))
     end do
   end subroutine foundation_springs
 
@@ -228,10 +233,42 @@ contains
     if (size(self%global_unknown) > 0) then
       self%past_drag = pull(self%first + self%owned_station)
     else
-      self%rate = 1.0_wp/(self%spring + self%drag)
+      self%rate = 1.0_wp/(self%modulus(bumps)*self%spring + self%drag)
       self%origin = self%ambient_pressure + pull(self%source)
     end if
   end subroutine foundation_damping
+
+  !> Springs follow the modulus of the bumps.
+  subroutine soften_foundation(self, modulus)
+    class(foundation_foil_type), intent(inout) :: self !! the elastic foundation
+    real(wp), intent(in) :: modulus(2) !! of top foil and bumps, over those it was built with [1]
+
+    self%modulus = modulus
+    if (size(self%global_unknown) == 0) self%rate = 1.0_wp/(modulus(bumps)*self%spring + self%drag)
+  end subroutine soften_foundation
+
+  !> Derivatives of the stations' equations by the modulus of the bumps.
+  subroutine foundation_modulus_rates(self, unknown, rate)
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(inout) :: rate(:, :) !! (local unknowns of the bearing, 2) [SI]
+
+    associate (equation => self%first + self%owned_station)
+      rate(equation, bumps) = rate(equation, bumps) + self%stiffness*unknown(equation)
+    end associate
+  end subroutine foundation_modulus_rates
+
+  !> Under local pressure deflections follow from springs that have no unknowns, whose modulus may be another one.
+  pure function foundation_deflection(self, unknown, modulus) result(moved)
+    class(foundation_foil_type), intent(in) :: self !! the elastic foundation
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(in), optional :: modulus(2) !! default: those that it has, see `soften`
+    real(wp) :: moved(size(self%source))
+
+    moved = self%foil_model_type%deflection(unknown)
+    if (.not. present(modulus) .or. size(self%global_unknown) > 0) return
+    moved = moved*((self%modulus(bumps)*self%spring + self%drag)/(modulus(bumps)*self%spring + self%drag))
+  end function foundation_deflection
 
   !> The mean of a pressure that depends on other unknowns.
   subroutine foundation_load_rates(self, column, slope, jacobian)
@@ -267,7 +304,7 @@ contains
     end do
     call MPI_Allreduce(mean, total, self%stations, MPI_DOUBLE_PRECISION, MPI_SUM, PETSC_COMM_WORLD, ierr)
     do i = 1, size(self%global_unknown)
-      unknown(self%first + i) = total(self%global_unknown(i))/self%stiffness
+      unknown(self%first + i) = total(self%global_unknown(i))/(self%modulus(bumps)*self%stiffness)
     end do
   end subroutine foundation_estimate
 

@@ -39,6 +39,7 @@ module gfb_meshed_foil
     procedure :: estimate => meshed_estimate
     procedure :: is_meshed => meshed_is_meshed
     procedure :: motions => meshed_motions
+    procedure :: add_modulus_rates => meshed_modulus_rates
     procedure :: free_matrix
     procedure(split_displacements), deferred :: split_displacements
     procedure(stresses), deferred :: stresses
@@ -114,12 +115,12 @@ contains
     PetscErrorCode :: ierr
     integer :: element, i
 
-    PetscCallA(GFB_VecGetArray(self%state, values, ierr))
-    values = unknown(self%first + self%own_place)
-    PetscCallA(GFB_VecRestoreArray(self%state, values, ierr))
-    PetscCallA(MatMult(self%elastic, self%state, self%force, ierr))
+    call find_elastic_force(self, unknown)
     PetscCallA(GFB_VecGetArrayRead(self%force, values, ierr))
-    residual(self%first + self%own_place) = residual(self%first + self%own_place) + values
+    associate (top => self%owned_top, own => self%first + self%own_place)
+      residual(own(:top)) = residual(own(:top)) + self%modulus(top_surface)*values(:top)
+      residual(own(top + 1:)) = residual(own(top + 1:)) + self%modulus(bump_surface)*values(top + 1:)
+    end associate
     PetscCallA(GFB_VecRestoreArrayRead(self%force, values, ierr))
 
     do element = 1, size(self%pressed, 2)
@@ -135,6 +136,40 @@ contains
     call add_contact_forces(self, unknown, residual)
   end subroutine meshed_residual
 
+  !> Elastic forces of the foils as they were built, in their vector.
+  subroutine find_elastic_force(foil, unknown)
+    class(meshed_foil_type), intent(in) :: foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(GFB_VecGetArray(foil%state, values, ierr))
+    values = unknown(foil%first + foil%own_place)
+    PetscCallA(GFB_VecRestoreArray(foil%state, values, ierr))
+    PetscCallA(MatMult(foil%elastic, foil%state, foil%force, ierr))
+  end subroutine find_elastic_force
+
+  !> Elastic forces, and that of the top foil's initial moment, over the moduli.
+  subroutine meshed_modulus_rates(self, unknown, rate)
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(inout) :: rate(:, :) !! (local unknowns of the bearing, 2) [SI]
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    call find_elastic_force(self, unknown)
+    PetscCallA(GFB_VecGetArrayRead(self%force, values, ierr))
+    associate (top => self%owned_top, own => self%first + self%own_place)
+      rate(own(:top), top_surface) = rate(own(:top), top_surface) + values(:top)
+      rate(own(top + 1:), bump_surface) = rate(own(top + 1:), bump_surface) + values(top + 1:)
+    end associate
+    PetscCallA(GFB_VecRestoreArrayRead(self%force, values, ierr))
+    if (.not. allocated(self%initial_load)) return
+    associate (mine => rate(self%first + 1:self%first + size(self%initial_load), top_surface))
+      mine = mine - self%initial_load
+    end associate
+  end subroutine meshed_modulus_rates
+
   !> Forces of the contacts, and of the top foil's initial moment.
   subroutine add_contact_forces(self, unknown, residual)
     class(meshed_foil_type), intent(in) :: self !! the foil
@@ -146,7 +181,7 @@ contains
     allocate (contact(self%local_unknowns()), source=0.0_wp)
     if (allocated(self%initial_load)) then
       associate (mine => residual(self%first + 1:self%first + size(contact)))
-        mine = mine - self%initial_load
+        mine = mine - self%modulus(top_surface)*self%initial_load
       end associate
     end if
 
@@ -247,9 +282,10 @@ contains
   end function meshed_is_meshed
 
   !> Displacements and stresses of both foils.
-  function meshed_motions(self, unknown) result(list)
+  function meshed_motions(self, unknown, modulus) result(list)
     class(meshed_foil_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
+    real(wp), intent(in) :: modulus(2) !! see `soften`
     type(surface_motion_type), allocatable :: list(:)
     type(foil_surface_type), allocatable :: surface(:)
     integer :: i
@@ -264,6 +300,7 @@ contains
         else
           list(i)%stress = self%stresses(surface(i), displacement)
         end if
+        list(i)%stress = modulus(i)*list(i)%stress
       end associate
     end do
   end function meshed_motions

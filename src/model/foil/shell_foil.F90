@@ -427,7 +427,8 @@ contains
     call build_bumps(scene, film, division, scene%model%reduction == reduction_guyan, foil%bumps, error)
     if (allocated(error)) return
     ranges = ranges_of(foil%top, foil%bumps)
-    foil%owned = foil%top%part%owned_unknowns + foil%bumps%part%owned_unknowns
+    foil%owned_top = foil%top%part%owned_unknowns
+    foil%owned = foil%owned_top + foil%bumps%part%owned_unknowns
     call join_stiffnesses(foil, ranges)
     call set_laws(scene, foil)
     foil%contacts%rows = foil%bumps%mesh%rows

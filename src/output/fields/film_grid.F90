@@ -63,7 +63,8 @@ contains
     if (output%gap) call add('gap', 'm', 'film thickness', bearing%gap(unknown))
     if (output%deflection) then
       call add('deflection', 'm', 'of the foil, away from the shaft', &
-               [(bearing%pad(i)%foil%deflection(unknown(bearing%pad(i)%first + 1:bearing%pad(i)%last)), i=1, size(bearing%pad))])
+               [(bearing%pad(i)%foil%deflection(unknown(bearing%pad(i)%first + 1:bearing%pad(i)%last), bearing%modulus(i, unknown)), &
+                 i=1, size(bearing%pad))])
     end if
     if (bearing%pad(1)%contact%present) then
       call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))

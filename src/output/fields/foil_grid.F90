@@ -249,7 +249,7 @@ contains
     do k = 1, size(bearing%pad)
       associate (pad => bearing%pad(k))
         if (size(bearing%pad) > 1) behind = '_'//text(k)
-        motion = pad%foil%motions(unknown(pad%first + 1:pad%last))
+        motion = pad%foil%motions(unknown(pad%first + 1:pad%last), bearing%modulus(k, unknown))
         do i = 1, size(surface)
           call create_foil_grid(surface(i), surface(i)%name//behind, grid)
           grid%grid%point(3, :) = grid%grid%point(3, :) + pad%film%surface%offset

@@ -2,12 +2,14 @@
 module gfb_thermal_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: needs_journal
-  use gfb_case_keys, only: case_keys_type, between, from_to, no_default, not_negative, positive, &
-                           unless
+  use gfb_case_keys, only: case_keys_type, longest_list, any_value, between, from_to, no_default, &
+                           not_negative, positive, unless
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_gas_case, only: gas_case_type, usual_temperature, follow_ambient
   use gfb_heated_film, only: wall_given, wall_conductance, wall_fin
+  use gfb_modulus_law, only: modulus_law_type, slope_law, least_ratio
   use gfb_scene_case, only: is_bearing, misplaced_group
+  use gfb_text, only: text
   implicit none (type, external)
   private
   public :: thermal_case_type, read_thermal_case, estimated_bump_conductance
@@ -60,6 +62,7 @@ module gfb_thermal_case
     real(wp) :: shaft_density = 0.0_wp              !! [kg/m^3]
     real(wp) :: shaft_youngs_modulus = 0.0_wp       !! [Pa]
     real(wp) :: shaft_poissons_ratio = 0.0_wp       !! [1]
+    type(modulus_law_type) :: modulus               !! of the foils over their temperature
   contains
     procedure :: is_cooled, mirrors, has_way_out, growth
   end type thermal_case_type
@@ -118,7 +121,73 @@ contains
                        'ratio of that shaft', between(-1.0_wp, 0.5_wp), default=no_default, &
                        given=given(3))
     thermal%centrifugal = all(given)
+    call read_modulus(keys, thermal)
   end subroutine read_thermal_case
+
+  !> Young's modulus of the foils over their temperature: a table, or a slope.
+  subroutine read_modulus(keys, thermal)
+    type(case_keys_type), intent(inout) :: keys
+    type(thermal_case_type), intent(inout) :: thermal
+    character(len=*), parameter :: group = 'thermal', places = 'modulus_temperatures', &
+                                   ratios = 'modulus_ratios', line = 'modulus_slope'
+    real(wp), allocatable :: temperature(:), ratio(:)
+    real(wp) :: slope
+    logical :: table, given
+    integer :: i
+
+    table = keys%holds(group, places)
+    call keys%real_list_key(places, temperature, longest_list, 'K', 'temperatures of a table '// &
+                            "of the foils' modulus, rising", from_to(coldest, hottest), &
+                            .false., 'no table')
+    if (keys%last_key_is_right()) then
+      if (size(temperature) < 2) call keys%complain(group, places, 'needs two values at least')
+      do i = 2, size(temperature)
+        if (temperature(i) > temperature(i - 1)) cycle
+        call keys%complain(group, places, 'must be greater than the value before it', i)
+        table = .false.
+        exit
+      end do
+    end if
+    call keys%real_list_key(ratios, ratio, longest_list, '1', "Young's modulus of top foil and "// &
+                            'bumps there, over `youngs_modulus`; straight between, as at the '// &
+                            'ends beyond', positive, keys%holds(group, places), &
+                            'required with modulus_temperatures')
+    if (keys%last_key_is_right()) then
+      if (.not. keys%holds(group, places)) then
+        call keys%complain(group, ratios, 'needs modulus_temperatures')
+      else if (size(ratio) /= size(temperature)) then
+        call keys%complain(group, ratios, 'must have one value a temperature: '// &
+                           text(size(temperature))//', not '//text(size(ratio)))
+      end if
+    end if
+    slope = 0.0_wp
+    call keys%real_key(line, slope, '1/K', 'of that ratio, which is 1 at '// &
+                       '`reference_temperature`, instead of a table; it ends at 0.1', &
+                       any_value, default=no_default, given=given)
+    if (given .and. keys%holds(group, places)) then
+      call keys%complain(group, line, 'must not be given beside modulus_temperatures')
+    else if (given) then
+      call check_slope('ambient_temperature', thermal%ambient_temperature)
+      call check_slope('top_foil_temperature', thermal%top_foil_temperature)
+      call check_slope('sleeve_temperature', thermal%sleeve_temperature)
+      thermal%modulus = slope_law(slope, thermal%reference_temperature, coldest, hottest)
+    else if (table .and. size(temperature) > 1 .and. size(ratio) == size(temperature)) then
+      thermal%modulus = modulus_law_type(temperature, ratio)
+    end if
+
+  contains
+
+    !> The line leaves something of the modulus at a temperature that is given.
+    subroutine check_slope(name, temperature)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: temperature !! 0: not given [K]
+      real(wp) :: left
+
+      left = 1.0_wp + slope*(temperature - thermal%reference_temperature)
+      call keys%rule(group, line, temperature > 0.0_wp .and. left <= least_ratio, 'leaves '// &
+                     text(left, 3)//' of the modulus at '//name//', which must be more than 0.1')
+    end subroutine check_slope
+  end subroutine read_modulus
 
   !> Shaft or sleeve of one temperature.
   subroutine read_place(keys, name, wall, near, given, conductance, far)

@@ -14,7 +14,7 @@ module gfb_answer_numbers
   use gfb_bearing_system, only: bearing_system_type, heat_flows
   use gfb_heated_film, only: heated_state_type, heated_jacobian, heated_shear_rates, mean_over_gap, heated_rows, heated_fields, row_foil, &
                              row_shaft, field_pressure, field_gap, field_gas, field_foil, field_shaft
-  use gfb_bearing_heat, only: temperatures_at
+  use gfb_bearing_heat, only: temperatures_at, moduli_at
   use gfb_film_heat, only: state_of, walls_of
   use gfb_heat_answer, only: heat_answer_type, heat_answer
   implicit none (type)
@@ -205,7 +205,7 @@ contains
     end if
     call add_extremes(bearing, nodes, gradient, by_gap)
     do i = 1, size(bearing%pad)
-      call follow_gap(bearing, bearing%pad(i), by_gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node, :), gradient)
+      call follow_gap(bearing, bearing%pad(i), unknown, by_gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node, :), gradient)
     end do
   end subroutine measure_gradient
 
@@ -460,15 +460,39 @@ contains
     end associate
   end subroutine follow_growth
 
+  !> What a pad's gap does by the temperatures that its springs follow, where these have no unknowns.
+  pure subroutine follow_modulus(bearing, pad, unknown, by_gap, gradient)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    type(pad_type), intent(in) :: pad
+    real(wp), intent(in) :: unknown(:) !! the bearing's, in SI
+    real(wp), intent(in) :: by_gap(:, :) !! (pad's nodes, numbers)
+    real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, numbers)
+    real(wp) :: ratio(2), rate(2)
+    integer :: k
+
+    if (pad%foil%local_unknowns() > 0) return
+    associate (heat => bearing%heat)
+      call moduli_at(heat, pad%number, bearing%point%growth, unknown, ratio, rate)
+      associate (slope => matmul(-rate(2)/ratio(2)*pad%foil%deflection(unknown(pad%first + 1:pad%last), ratio), by_gap), &
+                 wall => heat%first_wall + [heat%mean_wall(pad%number), heat%sleeve_wall()])
+        do k = 1, size(wall)
+          gradient(wall(k), :) = gradient(wall(k), :) + slope
+        end do
+      end associate
+    end associate
+  end subroutine follow_modulus
+
   !> What a pad's gap does by the unknowns that move it: its foil's, or pressures, and the shaft's.
-  pure subroutine follow_gap(bearing, pad, by_gap, gradient)
+  pure subroutine follow_gap(bearing, pad, unknown, by_gap, gradient)
     type(bearing_system_type), intent(in) :: bearing
     type(pad_type), intent(in) :: pad
+    real(wp), intent(in) :: unknown(:) !! the bearing's, in SI
     real(wp), intent(in) :: by_gap(:, :) !! (pad's nodes, numbers)
     real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, numbers)
     integer :: node, k
 
     if (bearing%heat%present) call follow_growth(bearing, pad, by_gap, gradient)
+    if (bearing%heat%softens()) call follow_modulus(bearing, pad, unknown, by_gap, gradient)
     do node = 1, size(by_gap, 1)
       if (pad%foil%source(node) > 0) then
         associate (mine => gradient(pad%first + pad%foil%source(node), :))

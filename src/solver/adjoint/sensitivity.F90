@@ -22,7 +22,7 @@ module gfb_sensitivity
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_meshed_foil, only: split_motion
+  use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
   use gfb_newton, only: newton_type, solve_transposed
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
                                 place_e, place_force, place_torque, place_speed, place_extremes, place_heat
@@ -469,7 +469,7 @@ contains
         end if
       end associate
       if (allocated(error)) exit
-      work = work + of_pad
+      work = work + bearing%pad(i)%foil%modulus(merge(bump_surface, top_surface, of_bumps))*of_pad
     end do
     call share_failure(error)
     work = sum_over_ranks(work)

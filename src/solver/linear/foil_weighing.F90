@@ -14,6 +14,7 @@ module gfb_foil_weighing
   use gfb_craig_bampton, only: craig_bampton_type, reduce_matrices
   use gfb_condensed_piece, only: condensed_piece_type, destroy_pieces
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_meshed_foil, only: bump_surface
   use gfb_film_rates, only: fill_from_foil
   use gfb_inner_motion, only: inner_modes_type
   use gfb_vibration_equations, only: foil_inertia_type
@@ -93,6 +94,35 @@ contains
     end if
   end subroutine create_inertia
 
+  !> Modes inside pieces of bumps whose modulus is not that they were built with: each pad has its own.
+  subroutine soften_modes(bearing, pieces, inertia)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: pieces !! of a pad, of all kinds and ranks
+    type(foil_inertia_type), intent(inout) :: inertia
+    type(inner_modes_type), allocatable :: of_all(:)
+    integer, allocatable :: mine(:)
+    integer :: i, k, pad, pads
+    real(wp) :: modulus(size(bearing%pad))
+
+    pads = size(bearing%pad)
+    modulus = [(bearing%pad(pad)%foil%modulus(bump_surface), pad=1, pads)]
+    if (.not. any(abs(modulus - 1.0_wp) > 0.0_wp)) return
+    call move_alloc(inertia%inner, of_all)
+    allocate (inertia%inner(size(of_all)*pads))
+    do i = 1, size(of_all)
+      do pad = 1, pads
+        mine = pack([(k, k=1, size(of_all(i)%place))], (of_all(i)%place - 1)/pieces == pad - 1)
+        associate (one => inertia%inner((i - 1)*pads + pad))
+          one%number = of_all(i)%number(:, mine)
+          one%place = of_all(i)%place(mine)
+          one%coupling = of_all(i)%coupling
+          one%eigenvalue = modulus(pad)*of_all(i)%eigenvalue
+        end associate
+      end do
+    end do
+    if (inertia%left_out < huge(1.0_wp)) inertia%left_out = sqrt(minval(modulus))*inertia%left_out
+  end subroutine soften_modes
+
   !> The mass matrix, and the modes inside condensed pieces.
   subroutine weigh_foil(bearing, pattern, modes, inertia)
     type(bearing_system_type), intent(in) :: bearing
@@ -119,6 +149,7 @@ contains
       call reduce_piece(bearing, piece(i), pieces, modes, inertia%left_out, inertia%inner(i), of_foil)
     end do
     call destroy_pieces(piece)
+    call soften_modes(bearing, pieces, inertia)
     PetscCallA(MatAssemblyBegin(of_foil, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(of_foil, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(pattern, MAT_DO_NOT_COPY_VALUES, inertia%mass, ierr))

@@ -118,6 +118,7 @@ contains
           here(heat%sleeve_wall()) = wall(from%sleeve_wall())
           do i = 1, size(bearing%pad)
             here(heat%inlet_wall(i)) = wall(from%inlet_wall(i))
+            if (heat%softens()) here(heat%mean_wall(i)) = wall(from%mean_wall(i))
           end do
           do i = 1, merge(heat%channels, 0, from%channels > 0)
             here(heat%channel_wall(i)) = line_between(wall(from%channel_wall(across%low(i))), wall(from%channel_wall(across%low(i) + 1)), &

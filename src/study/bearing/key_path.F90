@@ -217,11 +217,12 @@ contains
     type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
-    type(scene_type) :: there
+    type(scene_type), allocatable :: there ! large for a stack
     type(error_type), allocatable :: error
     logical :: fits
 
     problem = ''
+    allocate (there)
     call scene_at_value(scene, value, there, error)
     if (allocated(error)) then
       problem = error%message
