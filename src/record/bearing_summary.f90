@@ -108,8 +108,10 @@ contains
       call add_result(list, 'minimum_gap_angle', ring%thinnest(2))
       call add_result(list, 'maximum_pressure', answer%maximum_pressure)
       call add_result(list, 'minimum_pressure', answer%minimum_pressure)
-      call add_result(list, 'centre_radius', ring%centre(1))
-      call add_result(list, 'centre_angle', ring%centre(2))
+      if (ring%centre(1) > 0.0_wp) then
+        call add_result(list, 'centre_radius', ring%centre(1))
+        call add_result(list, 'centre_angle', ring%centre(2))
+      end if
       call add_result(list, 'maximum_deflection', answer%maximum_deflection, of_foil)
       call add_result(list, 'maximum_peclet', answer%maximum_peclet)
       call add_result(list, 'pads_solved', ring%pads_solved)
@@ -308,10 +310,12 @@ contains
                     engineering_text(ring%thinnest(2), 'deg', degrees))
       call log%line('pressure         '// &
                     engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
-                    engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp)// &
-                    '   centre on pad 1 at radius '//engineering_text(ring%centre(1), 'mm', &
-                    1.0e3_wp)//', '//engineering_text(ring%centre(2), 'deg', degrees)// &
-                    ' from its leading edge')
+                    engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
+      if (ring%centre(1) > 0.0_wp) then
+        call log%line('                 centre on pad 1 at radius '// &
+                      engineering_text(ring%centre(1), 'mm', 1.0e3_wp)//', '// &
+                      engineering_text(ring%centre(2), 'deg', degrees)//' from its leading edge')
+      end if
       if (answer%maximum_deflection > 0.0_wp) then
         call log%line('deflection       '//engineering_text(answer%maximum_deflection, 'um', &
                                                             1.0e6_wp)//' at most')

@@ -52,10 +52,22 @@ contains
       call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. asked(size(asked) - 1) .and. &
                      .not. scene%general%analysis == analysis_equilibrium, 'names a result of '// &
                      'journal bearings, or axial_gap where it is held')
+      call keys%rule('operation', 'axial_load', .not. bearing_wedges(scene) .and. &
+                     keys%meant('operation', 'axial_load') .and. .not. &
+                     scene%shaft_contact%present, 'cannot be carried by flat pads under an '// &
+                     'aligned runner, whose film has no wedge: give &ramp')
       call check_strips(keys, scene)
       call check_rigid_gap(keys, scene)
     end associate
   end subroutine check_thrust
+
+  !> Whether the film narrows along the motion somewhere: by a ramp, or a tilt.
+  pure logical function bearing_wedges(scene) result(wedges)
+    type(scene_type), intent(in) :: scene
+    wedges = scene%bearing%ramp_part > 0.0_wp .or. scene%operation%moment_given .or. &
+      any(abs(scene%operation%tilt) > 0.0_wp) .or. any(scene%sweep%parameter == [sweep_tilt_x, &
+      sweep_tilt_y]) .or. scene%operation%tilt_is_sought
+  end function bearing_wedges
 
   !> Strips side by side under local pressure: one more than cuts, which lie on the pad.
   subroutine check_strips(keys, scene)

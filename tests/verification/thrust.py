@@ -76,6 +76,29 @@ def check_closed_form(checks, folder):
     checks.below("flat pads: axial force [N]", answer["axial_force"], 1.0e-9)
 
 
+def check_squeeze(checks, folder):
+    """A narrow flat pad at rest that is squeezed: the rectangle's series of sines, to the width over the radius squared.
+
+    Of p' in G (p'_xx + p'_yy) - i omega h p' = i omega p_a h' with G = p_a h^3/(12 mu): Z = - int p' dA/h'.
+    """
+    height, width, radius = 1.0e-5, 0.01, 1.0
+    given = {"foil": "rigid"}, {"dynamics": {"frequencies": (2000.0, 60000.0)}}
+    answer = solve(folder, "squeezed", {"scene": {"analysis": "linear_dynamics"},
+                                        "bearing": {"kind": "thrust", "outer_radius": radius + 0.5*width, "inner_radius": radius - 0.5*width},
+                                        "pads": {"count": 1, "arc": 1.5*width/radius}, "gas": {"viscosity": VISCOSITY, "ambient_pressure": 101325.0},
+                                        "operation": {"speed_rpm": 0.0, "axial_gap": height}, "model": given[0], **given[1],
+                                        "mesh": {"circumferential_elements": 32, "radial_elements": 24, "edge_refinement": 4.0}})
+    conductance, area = 101325.0*height**3/(12.0*VISCOSITY), 1.5*width**2
+    odd = numpy.arange(1, 400, 2)
+    m, n = numpy.meshgrid(odd, odd)
+    wave = (math.pi*m/(1.5*width))**2 + (math.pi*n/width)**2
+    stiffness, damping = coefficients(answer)
+    for i, omega in enumerate(given[1]["dynamics"]["frequencies"]):
+        exact = area*(64.0/(math.pi**4*m**2*n**2)*1j*omega*101325.0/(conductance*wave + 1j*omega*height)).sum()
+        found = stiffness[i, 0, 0] + 1j*omega*damping[i, 0, 0]
+        checks.below(f"a flat pad squeezed at {omega:g} rad/s against the series", abs(found/exact - 1.0), 1.0e-3)
+
+
 def check_order(checks, folder):
     """The force of bilinear elements by Galerkin errs with the square of their size."""
     there = REFERENCE["rigid-0"]["output"]["axial_force"]
@@ -179,6 +202,7 @@ def main():
             check_reference(checks, folder, [name for name in REFERENCE if name not in FEW])
         else:
             check_closed_form(checks, folder)
+            check_squeeze(checks, folder)
             check_reference(checks, folder, FEW)
             check_order(checks, folder)
             check_one_pad(checks, folder)

@@ -25,7 +25,7 @@ module gfb_bearing_answer
     logical :: present = .false.
     real(wp) :: area = 0.0_wp          !! of the pads [m2]
     real(wp) :: thinnest(2) = 0.0_wp   !! radius and angle where the film is thinnest [m], [rad]
-    real(wp) :: centre(2) = 0.0_wp     !! the same of the pressure on pad 1, from its leading edge
+    real(wp) :: centre(2) = 0.0_wp     !! of the pressure on pad 1, from its leading edge; 0: none
     integer :: pads = 1, pads_solved = 1
   end type ring_answer_type
 

@@ -7,13 +7,13 @@ import argparse
 import pathlib
 
 from gfb.bench import (accuracy, assembly, bearing, bearing_mesh, condensation, dynamics, faults, film, linear_solvers, measured, population,
-                       profile, scaling, strip, thermal, transient, work_precision)
+                       profile, scaling, strip, thermal, thrust, transient, work_precision)
 from gfb.run import find_gfb
 from gfb.tool import draw_into_files, stop
 
 COMMANDS = {"film": film, "accuracy": accuracy, "assembly": assembly, "condensation": condensation, "dynamics": dynamics, "faults": faults,
             "strip": strip, "bearing": bearing, "bearing-mesh": bearing_mesh, "linear-solvers": linear_solvers, "measured": measured,
-            "population": population, "profile": profile, "scaling": scaling, "thermal": thermal, "transient": transient,
+            "population": population, "profile": profile, "scaling": scaling, "thermal": thermal, "thrust": thrust, "transient": transient,
             "work-precision": work_precision}
 
 
