@@ -47,7 +47,7 @@ def sizes_of(text, one):
             f"held_force_{axis}": bearing.force_unit for axis in "xy"} | {
             "largest_multiplier": 10.0}  # from differences of orbits that are 2e-6 apart
     works = ("strain_energy", "penalty_energy", "friction_work", "external_work", "dissipated_energy")
-    if "maximum_deflection" not in one.summary:
+    if "maximum_force" not in one.summary:
         return {}
     largest, energy = one["maximum_deflection"], one["maximum_deflection"]*one["maximum_force"]
     return {name: energy for name in works} | {"force": one["maximum_force"], "plate_travel": largest} | {

@@ -142,26 +142,22 @@ contains
     real(wp), intent(in) :: pressure(:) !! at all film nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at all film nodes [m]
     type(ring_answer_type) :: answer
-    real(wp) :: moments(3), smallest(1), least, here(2), area(2)
-    integer :: i, node
+    real(wp) :: moments(3), smallest(1), area(2)
+    integer :: i
 
     answer%present = .true.
     answer%pads_solved = size(bearing%pad)
-    smallest = -largest_over_ranks([-minval(gap)])
-    here = -huge(1.0_wp)
     area = 0.0_wp
     do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
-        area = area + square_integrals(film, pressure(pad%first_node + 1:pad%last_node))
-        node = minloc(gap(pad%first_node + 1:pad%last_node), 1)
-        least = gap(pad%first_node + node)
-        if (least <= smallest(1)) here = [film%axial(node), film%angle(node)]
+      associate (pad => bearing%pad(i))
+        area = area + square_integrals(pad%film, pressure(pad%first_node + 1:pad%last_node))
       end associate
     end do
     area = sum_over_ranks(area)
     answer%area = area(2)*bearing%pad(1)%whole%repeats
     answer%pads = bearing%pad(1)%whole%repeats*size(bearing%pad)
-    answer%thinnest = largest_over_ranks(here)
+    smallest = -largest_over_ranks([-minval(gap)])
+    answer%thinnest = place_of_gap(bearing, gap, smallest(1))
     associate (pad => bearing%pad(1))
       moments = pressure_moments(pad%film, pressure(pad%first_node + 1:pad%last_node))
       moments = sum_over_ranks(moments)
@@ -170,6 +166,29 @@ contains
       end if
     end associate
   end function ring_answer
+
+  !> Radius and angle of the smallest gap; of places that are alike the last one along the motion, and
+  !> there the outermost.
+  function place_of_gap(bearing, gap, smallest) result(place)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: gap(:)   !! at all film nodes [m]
+    real(wp), intent(in) :: smallest !! of all ranks [m]
+    real(wp), parameter :: alike = 1.0e-9_wp !! relative, and of angles [1], [rad]
+    real(wp) :: place(2) !! [m], [rad]
+    real(wp), dimension(size(gap)) :: radius, angle
+    integer :: i
+
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        radius(pad%first_node + 1:pad%last_node) = pad%film%axial
+        angle(pad%first_node + 1:pad%last_node) = pad%film%angle
+      end associate
+    end do
+    associate (thinnest => gap <= smallest*(1.0_wp + alike))
+      place(2:) = largest_over_ranks([maxval(angle, thinnest)])
+      place(:1) = largest_over_ranks([maxval(radius, thinnest .and. angle >= place(2) - alike)])
+    end associate
+  end function place_of_gap
 
   !> Sums over the ranks, and over the pads.
   subroutine add_up(sums, total)
