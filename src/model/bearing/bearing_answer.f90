@@ -167,8 +167,8 @@ contains
     end associate
   end function ring_answer
 
-  !> Radius and angle of the smallest gap; of places that are alike the last one along the motion, and
-  !> there the outermost.
+  !> Radius and angle of the smallest gap; of places that are alike the last one along the motion,
+  !> and there the outermost.
   function place_of_gap(bearing, gap, smallest) result(place)
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: gap(:)   !! at all film nodes [m]
@@ -186,7 +186,8 @@ contains
     end do
     associate (thinnest => gap <= smallest*(1.0_wp + alike))
       place(2:) = largest_over_ranks([maxval(angle, thinnest)])
-      place(:1) = largest_over_ranks([maxval(radius, thinnest .and. angle >= place(2) - alike)])
+      place(:1) = largest_over_ranks([maxval(radius, &
+                                             thinnest .and. angle >= place(2) - alike)])
     end associate
   end function place_of_gap
 

@@ -71,6 +71,7 @@ module gfb_line_search
     real(wp) :: step_before = huge(1.0_wp) !! the one before [1]
     real(wp) :: size_x = 1.0_wp          !! largest unknown, at least 1, scaled [1]
     integer :: straight = 0              !! steps before contacts are taken to alternate
+    integer :: bold = 0                  !! steps, the first ones, that are taken wherever they can be evaluated
     logical :: impossible = .false.      !! no trial along the step could be evaluated
     integer, private :: steps = 0        !! so far
     integer, private :: blocked = 0      !! steps in succession that were cut very short for that
@@ -435,7 +436,8 @@ contains
     logical, intent(in) :: full      !! the step is not shortened
 
     is = residual <= huge(1.0_wp)
-    if (is) is = residual <= (1.0_wp - sufficient*line%length)*maxval(line%past) .or. (line%step <= stagnation .and. full)
+    if (.not. is .or. line%steps <= line%bold) return
+    is = residual <= (1.0_wp - sufficient*line%length)*maxval(line%past) .or. (line%step <= stagnation .and. full)
   end function is_small_enough
 
   !> Halves a step until it can be evaluated and its residual is small enough.

@@ -64,6 +64,7 @@ module gfb_newton
     !> Of one solve, before they are bent at contacts that change. A bent step may end on another branch: only a search
     !> for any answer bends them, a path that follows a branch does not.
     integer :: straight_steps = huge(1)
+    integer :: bold_steps = 0 !! of one solve, the first ones, that may enlarge the residual
     logical :: may_be_stopped = .true. !! by a signal, between two iterations
     type(work_bound_type), pointer :: bound => null() !! of a search for an answer, where it has one
   end type newton_settings_type
@@ -284,6 +285,7 @@ contains
     newton%rounded = .false.
     newton%line = line_search_type()
     newton%line%straight = newton%settings%straight_steps
+    newton%line%bold = newton%settings%bold_steps
     PetscCallA(SNESSetTolerances(newton%snes, 0.0_wp, 0.0_wp, 0.0_wp, int(newton%settings%maximum_iterations, pint), 1000000_pint, ierr))
     ! PETSc marks what it cannot evaluate or solve with one over zero.
     call newton%system%settle(newton%system%state, moved)

@@ -94,7 +94,8 @@ contains
   end subroutine try_from_gap
 
   !> From one held gap to another until the film carries about the load: its force is next to a power of the gap, found from the
-  !> last two. Newton's method leads from there to the load.
+  !> last two. Newton's method leads from there to the load. Of 60 bearings at random as many have an answer without these steps,
+  !> 45, at 713 factorizations instead of 589.
   subroutine approach_load(bearing, newton, target, settings, report)
     type(bearing_system_type), intent(inout) :: bearing !! with an answer at a held gap
     type(newton_type), target, intent(inout) :: newton
