@@ -92,6 +92,8 @@ contains
     ! The last of the factors, so that the next solve can begin with them.
     call find_determinant_sign(newton, sign_of_determinant)
     if (sign_of_determinant == 0) return
+    ! A runner's gap and tilts are one or three unknowns, whose stiffness enters with the opposite sign.
+    if (modulo(size(bearing%coordinate), 2) == 1) sign_of_determinant = -sign_of_determinant
     call add_result(list, 'determinant_sign', sign_of_determinant)
     if (.not. bearing%has_contacts()) return
     call find_edge_stiffness(bearing, newton, known, stiffness)

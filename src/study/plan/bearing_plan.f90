@@ -16,7 +16,7 @@ module gfb_bearing_plan
   use gfb_sweep_case, only: sweep_load, sweep_speed, sweep_axial_load
   use gfb_text, only: text
   use gfb_petsc_session, only: rank_count
-  use gfb_scene_rules, only: is_symmetric, heat_mirrors
+  use gfb_scene_rules, only: is_symmetric, heat_mirrors, solves_one_pad
   use gfb_shell_geometry, only: node_unknowns
   use gfb_general_film, only: film_flow_type, general_peclet
   use gfb_film_surface, only: entraining_speed
@@ -153,10 +153,16 @@ contains
                              plan%order == film_order_biquadratic))// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved')
     if (scene%bearing%pads > 1) then
-      call log%line('pads: '//text(scene%bearing%pads)// &
-                    ', each with such a film and foils of its own')
+      if (solves_one_pad(scene)) then
+        call log%line('pads: '//text(scene%bearing%pads)// &
+                      ', equal under an aligned runner: one is solved for all')
+      else
+        call log%line('pads: '//text(scene%bearing%pads)// &
+                      ', each with such a film and foils of its own')
+      end if
     end if
     films = scene%bearing%pads*merge(2, 1, scene%rotor%distance_in_time > 0.0_wp) ! two bearings
+    if (solves_one_pad(scene)) films = 1
     call show_few(films*nodes, scene, log)
     plan%memory = film_memory(films*nodes, rank_count())
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, films, nodes, plan, log)

@@ -76,7 +76,7 @@ def read_run(stem, gfb):
         case_file = text_of(file["scene/case_file"][()])
         used = Case.parse(text_of(file["scene/used"][()]))
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
-        shows = [name for name in ("contact", "dynamics", "transient") if name in file] + ["heat"]*(HEATED in table)
+        shows = [name for name in ("contact", "dynamics", "transient") if name in file] + ["heat"]*(HEATED in table) + ["ring"]*("axial_gap" in table)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
     return {"name": stem.name, "title": used.groups.get("scene", {}).get("title", ""), "summary": summary,
@@ -125,8 +125,9 @@ def needs_of(case_file, gfb):
 def pictures_of(stem, points, shows):
     """Title and picture of everything that tools/plot draws of a result; what it cannot draw is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
-    wanted[1:1] = [("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]),
-                   ("film and foils around the shaft, heights and displacements drawn larger", [f"{stem}.film.vtkhdf", "--3d", "--picture-only"])]
+    if "ring" not in shows:
+        wanted[1:1] = [("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]),
+                       ("film and foils around the shaft, heights and displacements drawn larger", [f"{stem}.film.vtkhdf", "--3d", "--picture-only"])]
     if "heat" in shows:
         wanted += [("temperatures of film and top foil, and heat into the shaft", [f"{stem}.film.vtkhdf", "--show", "heat"]),
                    ("heat along the points" if points > 1 else "where the heat goes, and how hot it is", [f"{stem}.h5", "--show", "heat"])]
