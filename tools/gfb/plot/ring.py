@@ -3,11 +3,8 @@
 import numpy
 from matplotlib import pyplot
 
-from gfb.plot.film import FIELDS, ROUND_OFF, WORDS, around_zero, readable, round_numbers
-from gfb.plot.scene import scene_of
-
-BANDS = 20  # colours of a map, about
-SIGNED = {"deflection"}  # fields with colours on both sides of zero
+from gfb.plot.film import BANDS, FIELDS, ROUND_OFF, SIGNED, WORDS, around_zero, readable
+from gfb.plot.scene import round_numbers, scene_of
 
 
 def is_ring(file):
