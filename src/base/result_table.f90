@@ -161,6 +161,14 @@ module gfb_result_table
       asked=.true.), &
     result_type('centre_angle', 'rad', number, bearing, &
       'centre of the pressure on pad 1, from its leading edge', joins=.true., asked=.true.), &
+    result_type('deflection_trailing_inner', 'm', number, bearing, &
+      'of the top foil away from the runner, at the corners of its trailing edge', &
+      'of a thrust bearing: of the top foil of pad 1, away from the runner, at the corners of '// &
+      'its trailing edge'), &
+    result_type('deflection_trailing_outer', 'm', number, bearing, &
+      'of the top foil away from the runner, at the corners of its trailing edge', joins=.true.), &
+    result_type('line_force_<n>', 'N', number, bearing, &
+      'of the springs of crest n on the plate of pad 1, crests from its leading edge on'), &
     result_type('pads_solved', '1', total, bearing, 'others are the same, turned'), &
     result_type('lifted_length', '1', number, bearing, &
       'crest length without contact over all of it', &

@@ -79,6 +79,7 @@ contains
       call add_result(list, 'trailing_edge_lift_edge', answer%trailing_edge_lift(2))
       call add_result(list, 'lifted_length', answer%lifted_length)
     end if
+    call add_lines(answer, list)
     if (answer%has_solid_contact) then
       call add_result(list, 'solid_contact_force_x', answer%solid_force(1))
       call add_result(list, 'solid_contact_force_y', answer%solid_force(2))
@@ -113,9 +114,15 @@ contains
         call add_result(list, 'centre_angle', ring%centre(2))
       end if
       call add_result(list, 'maximum_deflection', answer%maximum_deflection, of_foil)
+      if (answer%has_foils) then
+        call add_result(list, 'deflection_trailing_inner', ring%trailing_deflection(1))
+        call add_result(list, 'deflection_trailing_outer', ring%trailing_deflection(2))
+        call add_result(list, 'lifted_length', answer%lifted_length)
+      end if
       call add_result(list, 'maximum_peclet', answer%maximum_peclet)
       call add_result(list, 'pads_solved', ring%pads_solved)
     end associate
+    call add_lines(answer, list)
     do i = 1, merge(answer%ring%pads, 0, answer%ring%pads > 1)
       if (allocated(answer%pad_gap)) then
         call add_result(list, 'axial_force_'//text(i), answer%pad_force(axial, i))
@@ -126,6 +133,18 @@ contains
       end if
     end do
   end subroutine add_ring
+
+  !> Adds what the crests under a plate carry.
+  subroutine add_lines(answer, list)
+    type(bearing_answer_type), intent(in) :: answer
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    integer :: i
+
+    if (.not. allocated(answer%line_force)) return
+    do i = 1, size(answer%line_force)
+      call add_result(list, 'line_force_'//text(i), answer%line_force(i))
+    end do
+  end subroutine add_lines
 
   !> Adds what presses on sleeve and shaft.
   subroutine add_loads(answer, list)
@@ -319,6 +338,12 @@ contains
       if (answer%maximum_deflection > 0.0_wp) then
         call log%line('deflection       '//engineering_text(answer%maximum_deflection, 'um', &
                                                             1.0e6_wp)//' at most')
+      end if
+      if (answer%has_foils) then
+        call log%line('trailing edge    deflected by '//pair(ring%trailing_deflection, 'um', &
+                                                             1.0e6_wp)//' inside and outside')
+        call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
+                      ' % of their length touch nothing')
       end if
     end associate
   end subroutine show_ring

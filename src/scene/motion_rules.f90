@@ -8,9 +8,10 @@ module gfb_motion_rules
                               follow_nothing, follow_speed, follow_unbalance, follow_mass, &
                               duration_of
   use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
-                            foil_rigid, foil_shell, half_width_yes, reduction_none, meshes_foils
+                            foil_rigid, foil_shell, half_width_yes, reduction_none, meshes_foils, &
+                            meshes_top_foil
   use gfb_operation_case, only: angular_speed
-  use gfb_scene, only: scene_type
+  use gfb_scene, only: scene_type, foil_density
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
@@ -43,7 +44,7 @@ contains
       if (scene%accuracy%present) then
         call keys%rule(group, 'vibration_amplitudes', amplitudes, &
                        'has no error estimate: leave &accuracy out and give the mesh')
-        call keys%rule(group, 'foil_mass', meshes_foils(model%foil) .and. &
+        call keys%rule(group, 'foil_mass', meshes_top_foil(model%foil) .and. &
                        scene%foil_damping%foil_mass == mass_auto, "must be 'on' or 'off' with "// &
                        "&accuracy, in &foil_damping: 'auto' may choose differently on each mesh")
       end if
@@ -115,13 +116,12 @@ contains
     if (scene%model%foil == 0) return
     if (.not. (scene%transient%present .or. scene%dynamics%present)) return
     associate (wanted => scene%foil_damping%foil_mass)
-      if (keys%meant(group, 'foil_mass') .and. .not. meshes_foils(scene%model%foil)) then
+      if (keys%meant(group, 'foil_mass') .and. .not. meshes_top_foil(scene%model%foil)) then
         call keys%complain(group, 'foil_mass', needs_meshes//'no other foil has a mass')
       else
         call keys%rule(group, 'foil_mass', wanted == mass_on .and. &
-                       .not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp, &
-                       'needs the density of both foils: give density in &top_foil and in '// &
-                       '&bump_foil')
+                       .not. foil_density(scene) > 0.0_wp, 'needs the density of both foils: '// &
+                       'give density in &top_foil and in &bump_foil; a plate has but &top_foil')
       end if
       if (scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_none) then
         call keys%refuse(group, 'foil_modes', .true., "needs foil = 'shell' and condensed "// &

@@ -54,6 +54,7 @@ module gfb_plausible_values
                'bearing%leading_edge_angle bore%wave_angle bore%shim_angle bore%shim_arc '// &
                'bore%shim_ramp bore%profile_angle pads%arc pads%first_leading_edge pads%gap '// &
                'unbalance%unbalance_angle unbalance%couple_unbalance_angle'), &
+    range_type(0.0_wp, 6.3_wp, 'rad', 'deg', 'bump_foil%crest_angles'), &
     range_type(3.0e-6_wp, 3.0e-4_wp, 'Pa s', 'uPa s,mPa s', &
                'gas%viscosity gas%density_table_viscosity'), &
     range_type(1.0e3_wp, 5.0e7_wp, 'Pa', 'bar,kPa,MPa', 'gas%ambient_pressure'), &
@@ -107,7 +108,7 @@ module gfb_plausible_values
                'bump_foil%height bump_foil%bump_height bump_foil%strip_height'), &
     range_type(1.0e-9_wp, 1.0e-3_wp, 'm', 'um,mm', 'bump_foil%height_deviation'), &
     range_type(2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um', &
-               'bump_foil%pitch bump_foil%bump_pitch bump_foil%strip_pitch'), &
+               'bump_foil%pitch bump_foil%bump_pitch bump_foil%strip_pitch model%spring_pitch'), &
     range_type(0.0_wp, 5.0e-2_wp, 'm', 'mm,um', 'bump_foil%strip_offset'), &
     range_type(1.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um', 'bump_foil%cut_width'), &
     range_type(0.0_wp, 2.0_wp, '1', '%', &
@@ -121,6 +122,7 @@ module gfb_plausible_values
     range_type(1.0e-6_wp, 1.0e6_wp, 'N', 'mN', 'strip_load%maximum_force'), &
     range_type(1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'model%foundation_stiffness '// &
                'model%strip_foundation_stiffness'), &
+    range_type(1.0e3_wp, 1.0e12_wp, 'N/m^2', 'N/mm^2', 'model%crest_stiffness'), &
     range_type(1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm', 'capacity%smallest_gap'), &
     range_type(0.0_wp, 1.0e-4_wp, 'm', 'mm,um', 'solver%touch_down_gap'), &
     range_type(0.0_wp, 1.0e-2_wp, '1', '%', 'solver%residual_tolerance solver%step_tolerance'), &
@@ -192,7 +194,7 @@ module gfb_plausible_values
     unit_type('W/(cm^2 K)', 1.0e4_wp), &
     unit_type('g/s', 1.0e-3_wp), unit_type('um/(m K)', 1.0e-6_wp), &
     unit_type('g/cm^3', 1.0e3_wp), unit_type('g/m^3', 1.0e-3_wp), &
-    unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp), &
+    unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp), unit_type('N/mm^2', 1.0e6_wp), &
     unit_type('N s/mm^3', 1.0e9_wp), unit_type('mN', 1.0e-3_wp), unit_type('mN s', 1.0e-3_wp), &
     unit_type('N mm', 1.0e-3_wp), unit_type('N mm s', 1.0e-3_wp), &
     unit_type('kg mm', 1.0e-3_wp), unit_type('g mm', 1.0e-6_wp), &

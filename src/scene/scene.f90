@@ -1,5 +1,6 @@
 !> One case file as plain values: what was asked, in SI, read group by group.
 module gfb_scene
+  use gfb_kinds, only: wp
   use gfb_study_cases, only: accuracy_case_type, capacity_case_type, modes_case_type, &
                              output_case_type, sample_case_type, sensitivity_case_type, &
                              read_accuracy_case, read_capacity_case, part_half_arc, part_arc, &
@@ -18,7 +19,7 @@ module gfb_scene
                               read_transient_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
-  use gfb_model_case, only: model_case_type, meshes_foils, read_model_case
+  use gfb_model_case, only: model_case_type, foil_plate, meshes_foils, read_model_case
   use gfb_operation_case, only: operation_case_type, read_operation_case, size_of_gap
   use gfb_scene_case, only: scene_case_type, needs_type, analysis_strip, read_scene_case, &
                             is_bearing, misplaced_group, analysis_modes, analysis_misalignment
@@ -28,7 +29,7 @@ module gfb_scene
   use gfb_case_keys, only: case_keys_type, unless
   implicit none (type, external)
   private
-  public :: read_groups, needs_of
+  public :: read_groups, needs_of, foil_density
 
   !> One scene.
   type, public :: scene_type
@@ -116,7 +117,7 @@ contains
       ! A mass that whirls moves across the axis.
       scene%dynamics%stability = scene%dynamics%stability .and. .not. scene%bearing%is_thrust()
       call read_sweep_case(keys, scene%sweep, analysis)
-      call read_top_foil_case(keys, scene%top_foil, needs)
+      call read_top_foil_case(keys, scene%top_foil, scene%bearing%is_thrust(), needs)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
       call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, &
                              scene%bearing%is_thrust(), analysis)
@@ -134,6 +135,14 @@ contains
     scene%general%analysis = state
   end subroutine read_groups
 
+  !> Smallest density of the foils that have a mesh; 0 where one of them has none [kg/m^3].
+  pure real(wp) function foil_density(scene) result(density)
+    type(scene_type), intent(in) :: scene !! of a bearing
+
+    density = scene%top_foil%density
+    if (scene%model%foil /= foil_plate) density = min(density, scene%bump_foil%density)
+  end function foil_density
+
   !> What an analysis needs, of foils by a model, or of modes of a part.
   pure function needs_of(analysis, part, foil) result(needs)
     integer, intent(in) :: analysis, part, foil !! 0 where they are not known
@@ -145,7 +154,7 @@ contains
     needs%film = is_bearing(analysis)
     needs%top_mass = modes .and. part == part_top_foil
     needs%pad = needs%film .or. needs%top_mass
-    needs%top_foil = needs%top_mass .or. meshed
+    needs%top_foil = needs%top_mass .or. meshed .or. (needs%film .and. foil == foil_plate)
     needs%mass = modes .and. part /= part_top_foil
     needs%width = needs%mass .or. analysis == analysis_strip
     needs%bumps = needs%width .or. meshed

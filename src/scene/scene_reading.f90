@@ -6,7 +6,8 @@ module gfb_scene_reading
   use gfb_case_keys, only: case_keys_type
   use gfb_motion_cases, only: mass_off
   use gfb_moved_keys, only: home_of
-  use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_word, coupling_partitioned
+  use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_plate, foil_word, &
+                            coupling_partitioned
   use gfb_scene, only: scene_type, read_groups
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_study_cases, only: parameter_type
@@ -142,13 +143,16 @@ contains
     type(swept_key_type), intent(in) :: named !! the key, as it was typed
     character(len=:), allocatable :: problem
     character(len=:), allocatable :: group, key
-    logical :: foils, springs, computed
+    logical :: foils, springs, computed, plate
 
     key = named%name
     group = home_of(named%group, key)
     foils = meshes_foils(scene%model%foil)
+    plate = scene%model%foil == foil_plate
     springs = scene%model%foil == foil_elastic_foundation
-    computed = springs .and. .not. keys%meant('model', 'foundation_stiffness')
+    computed = (springs .and. .not. keys%meant('model', 'foundation_stiffness')) .or. &
+               (plate .and. .not. keys%meant('model', 'crest_stiffness'))
+    springs = springs .or. plate
     problem = ''
     select case (group)
     case ('bearing', 'pads')
@@ -164,14 +168,11 @@ contains
     case ('operation')
       if (key /= 'speed_rpm') problem = 'it chooses the first answer, the others follow that'
     case ('top_foil')
-      if (.not. (foils .or. (scene%thermal%present .and. key == 'thickness'))) then
+      if (.not. (foils .or. plate .or. (scene%thermal%present .and. key == 'thickness'))) then
         problem = needs_foils()
       end if
     case ('bump_foil')
-      if (springs .and. .not. computed) problem = 'foundation_stiffness in &model is given'
-      if (computed .and. any(key == ['height', 'width ']) .and. .not. scene%thermal%present) then
-        problem = 'the stiffness by Walowit-Anno does not depend on it'
-      end if
+      problem = bump_problem(scene, key, springs, computed)
       if (.not. foils .and. .not. springs) problem = needs_foils()
     case ('contact')
       if (.not. foils) problem = needs_foils()
@@ -190,6 +191,9 @@ contains
       if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
     case ('model')
       if (.not. springs) problem = "it needs foil = 'elastic_foundation' in &model"
+      if (plate .neqv. any(key == ['crest_stiffness', 'spring_pitch   '])) then
+        problem = "foil = '"//foil_word(scene%model%foil)//"' does not know it"
+      end if
     case default
       problem = 'it does not belong to the bearing, but to how it is computed'
     end select
@@ -208,6 +212,27 @@ contains
               foil_word(scene%model%foil)//"'"
     end function needs_foils
   end function use_problem
+
+  !> Why a key of the bumps has no effect where springs stand for them; empty where it has one.
+  function bump_problem(scene, key, springs, computed) result(words)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), intent(in) :: key !! of `&bump_foil`
+    logical, intent(in) :: springs !! stand for the bumps
+    logical, intent(in) :: computed !! by Walowit and Anno
+    character(len=:), allocatable :: words
+    logical :: plate
+
+    words = ''
+    plate = scene%model%foil == foil_plate
+    if (springs .and. .not. (computed .or. (plate .and. any(key == ['pitch       ', &
+                                                      'half_length ', 'crest_angles'])))) then
+      words = trim(merge('crest_stiffness     ', 'foundation_stiffness', plate))// &
+              ' in &model is given'
+    end if
+    if (computed .and. any(key == ['height', 'width ']) .and. .not. scene%thermal%present) then
+      words = 'the stiffness by Walowit-Anno does not depend on it'
+    end if
+  end function bump_problem
 
   !> Looks the keys up, notes units and values, and complains about those that no answer follows.
   subroutine check_sensitivity(keys, scene)

@@ -8,7 +8,8 @@ module gfb_scene_rules
   use gfb_study_rules, only: check_counts, check_sweep, check_edge_lift, check_accuracy, &
                              check_capacity, check_sample, is_unloaded
   use gfb_foil_rules, only: check_foils, check_shape
-  use gfb_model_case, only: needs_meshes, foil_rigid, foil_elastic_foundation, meshes_foils, &
+  use gfb_model_case, only: needs_meshes, foil_rigid, foil_elastic_foundation, foil_plate, &
+                            meshes_foils, &
                             half_width_yes, reduction_guyan, coupling_partitioned, &
                             foundation_pressure_local
   use gfb_motion_rules, only: check_dynamics, check_foil_mass, check_rotor, check_transient, &
@@ -20,6 +21,7 @@ module gfb_scene_rules
   use gfb_study_cases, only: quantities_without_heat, quantities_of_rings
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
+  use gfb_plate_rules, only: check_plate
   use gfb_text, only: join, text
   use gfb_thrust_rules, only: check_thrust
   use gfb_thermal_case, only: thermal_case_type, wall_given, wall_conductance, wall_fin, &
@@ -39,6 +41,7 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
 
     call check_thrust(keys, scene)
+    call check_plate(keys, scene)
     call check_sweep(keys, scene)
     call check_shaft_contact(keys, scene)
     call check_model(keys, scene)
@@ -130,6 +133,8 @@ contains
                      "with leading_edge_condition = 'periodic': a full ring has no slit")
       call keys%refuse(heat, moduli, scene%model%foil == foil_rigid, 'has no use with foil = '// &
                        "'rigid': nothing bends")
+      call keys%refuse(heat, moduli, scene%model%foil == foil_plate, 'has no effect '// &
+                       "on a plate's springs in this version")
       call keys%refuse(heat, moduli, scene%model%foil == foil_elastic_foundation .and. &
                        keys%meant('model', 'foundation_stiffness'), 'has no use with '// &
                        'foundation_stiffness in &model, which no modulus changes')

@@ -3,7 +3,8 @@ module gfb_thrust_rules
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foundation_pressure_local
+  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_plate, &
+                            foundation_pressure_local
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
@@ -47,8 +48,9 @@ contains
       call keys%rule('scene', 'analysis', scene%transient%present .or. scene%periodic%present, &
                      'cannot be that of a thrust bearing yet: its runner is '// &
                      'not followed over time')
-      call keys%rule('model', 'foil', all(foil /= [0, foil_rigid, foil_elastic_foundation]), &
-                     "must be 'rigid' or 'elastic_foundation' with kind = 'thrust' in &bearing")
+      call keys%rule('model', 'foil', all(foil /= [0, foil_rigid, foil_elastic_foundation, &
+                     foil_plate]), "must be 'rigid', 'elastic_foundation' or 'plate' with "// &
+                     "kind = 'thrust' in &bearing")
       call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. asked(size(asked) - 1) .and. &
                      .not. scene%general%analysis == analysis_equilibrium, 'names a result of '// &
                      'journal bearings, or axial_gap where it is held')

@@ -4,8 +4,8 @@ module gfb_foil_mass_choice
   use gfb_units, only: turn
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_rigid, meshes_foils
+  use gfb_scene, only: scene_type, foil_density
+  use gfb_model_case, only: foil_rigid, foil_plate, meshes_top_foil
   use gfb_operation_case, only: angular_speed
   use gfb_motion_cases, only: frequencies_at, mass_on, mass_off
   use gfb_bearing_system, only: bearing_system_type
@@ -41,7 +41,7 @@ contains
 
     call give_momentum(bearing, mass_wanted(scene), scene%foil_damping%foil_modes, &
                        fastest_motion(scene), inertia)
-    if (meshes_foils(scene%model%foil)) call describe_mass(scene, log, inertia, .true.)
+    if (meshes_top_foil(scene%model%foil)) call describe_mass(scene, log, inertia, .true.)
     call destroy_inertia(inertia)
   end subroutine choose_momentum
 
@@ -61,7 +61,7 @@ contains
     type(scene_type), intent(in) :: scene
 
     wanted = scene%foil_damping%foil_mass
-    if (.not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp) wanted = mass_off
+    if (.not. foil_density(scene) > 0.0_wp) wanted = mass_off
   end function mass_wanted
 
   !> The highest frequency with which something moves the shaft, or it moves by itself [rad/s].
@@ -91,25 +91,27 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(foil_inertia_type), intent(in) :: inertia !! of its foil
     logical, intent(in) :: first !! it is the first answer; later ones say what they have judged
-    character(len=:), allocatable :: line, lowest, highest
+    character(len=:), allocatable :: line, lowest, highest, of_foils
 
     if (scene%model%foil == foil_rigid .or. .not. (first .or. inertia%judged)) return
     lowest = hertz(inertia%lowest)
     highest = hertz(inertia%highest)
-    if (.not. meshes_foils(scene%model%foil)) then
+    of_foils = 'of top foil and bumps'
+    if (scene%model%foil == foil_plate) of_foils = 'of the plate'
+    if (.not. meshes_top_foil(scene%model%foil)) then
       line = 'left out'
     else if (scene%foil_damping%foil_mass == mass_off) then
       line = "left out by foil_mass = 'off'"
-    else if (.not. min(scene%top_foil%density, scene%bump_foil%density) > 0.0_wp) then
+    else if (.not. foil_density(scene) > 0.0_wp) then
       line = 'left out, for a foil has no density'
     else if (.not. inertia%present) then
       line = 'left out: the foil alone has no natural frequency below '//lowest// &
              ', and motions up to '//highest//', less than a third of it, are asked for'
     else if (inertia%judged) then
-      line = 'of top foil and bumps, for the foil alone has a natural frequency of '//lowest// &
+      line = of_foils//', for the foil alone has a natural frequency of '//lowest// &
              ', and motions up to '//highest//', more than a third of it, are asked for'
     else
-      line = 'of top foil and bumps'
+      line = of_foils
     end if
     call log%line('foil mass: '//line)
     if (inertia%present .and. inertia%left_out < 3.0_wp*inertia%highest) then

@@ -39,8 +39,8 @@ module gfb_film_surface
     real(wp) :: offset = 0.0_wp !! z_0, of the midplane from the rotor's centre [m]
     real(wp) :: cosine = 1.0_wp, sine = 0.0_wp !! of beta [1]
   contains
-    procedure :: motions, radius_at, stretch, lever, tilt_arm, position, motion, point_motions
-    procedure :: motion_excess, gap
+    procedure :: is_ring, motions, radius_at, stretch, lever, tilt_arm, position, motion
+    procedure :: point_motions, motion_excess, gap
   end type film_surface_type
 
 contains
@@ -62,6 +62,12 @@ contains
     type(film_surface_type) :: surface
     surface = film_surface_type(radius=outer_radius, cosine=0.0_wp, sine=1.0_wp)
   end function ring
+
+  !> Whether the film lies across the axis: a thrust bearing's.
+  pure logical function is_ring(self) result(ring)
+    class(film_surface_type), intent(in) :: self !! the surface
+    ring = abs(self%sine) > 0.0_wp
+  end function is_ring
 
   !> The shaft's coordinates that change the gap.
   pure function motions(self) result(coordinate)

@@ -26,7 +26,8 @@ module gfb_shell_element
   use gfb_errors, only: error_type
   implicit none (type, external)
   private
-  public :: pressure_weights, shell_stiffness, shell_internal_force, shell_stress, von_mises
+  public :: pressure_weights, pressure_moments, shell_stiffness, shell_internal_force, &
+            shell_stress, von_mises
 
   real(wp), parameter :: shear_factor = 5.0_wp/6.0_wp !! of the transverse shear [1]
 
@@ -55,6 +56,16 @@ module gfb_shell_element
     real(wp) :: moment(3)                                !! bending moments M [N]
     real(wp) :: shear_force(2)                           !! transverse forces Q [N/m]
   end type shell_stress_type
+
+  integer, parameter :: corners = 4 !! of a bilinear film element
+  ! Integrals over a line: two linear functions; those of both halves times quadratic ones.
+  real(wp), parameter :: linear(2, 2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])/6.0_wp
+  real(wp), parameter :: quadratic(3, 3) = reshape( &
+    [7.0_wp, 2.0_wp, -1.0_wp, 6.0_wp, 20.0_wp, 6.0_wp, -1.0_wp, 2.0_wp, 7.0_wp], [3, 3])/48.0_wp
+  !> Places along and across the motion of a film element's nodes.
+  integer, parameter :: along(corners) = [1, 2, 2, 1], across(corners) = [1, 1, 2, 2]
+  integer, parameter :: station_of(9) = [1, 1, 1, 2, 2, 2, 3, 3, 3]
+  integer, parameter :: row_of(9) = [1, 2, 3, 1, 2, 3, 1, 2, 3]
 
 contains
 
@@ -213,21 +224,31 @@ contains
     integer, intent(in) :: nodes          !! of the film's element: 4, round it, or 9, row by row
     real(wp) :: weight(nodes, nodes)      !! W, (force, overpressure) [1]
 
-    integer, parameter :: corners = 4
-    ! Over a line: two linear functions; linear functions on both halves times quadratic ones.
-    real(wp), parameter :: linear(2, 2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])/6.0_wp
-    real(wp), parameter :: quadratic(3, 3) = reshape( &
-      [7.0_wp, 2.0_wp, -1.0_wp, 6.0_wp, 20.0_wp, 6.0_wp, -1.0_wp, 2.0_wp, 7.0_wp], [3, 3])/48.0_wp
-    integer, parameter :: along(corners) = [1, 2, 2, 1], across(corners) = [1, 1, 2, 2]
-    integer, parameter :: station_of(9) = [1, 1, 1, 2, 2, 2, 3, 3, 3]
-    integer, parameter :: row_of(9) = [1, 2, 3, 1, 2, 3, 1, 2, 3]
-
     if (nodes == corners) then
       weight = linear(along, along)*linear(across, across)
     else
       weight = quadratic(station_of, station_of)*quadratic(row_of, row_of)
     end if
   end function pressure_weights
+
+  !> First moments of these weights across the motion, about the middle of the element and over its
+  !> width: the area of a sector's element grows with its radius.
+  pure function pressure_moments(nodes) result(weight)
+    integer, intent(in) :: nodes          !! of the film's element: 4, round it, or 9, row by row
+    real(wp) :: weight(nodes, nodes)      !! (force, overpressure) [1]
+
+    real(wp), parameter :: linear_moment(2, 2) = &
+      reshape([-1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])/12.0_wp
+    real(wp), parameter :: quadratic_moment(3, 3) = reshape( &
+      [-27.0_wp, -10.0_wp, -3.0_wp, -16.0_wp, 0.0_wp, 16.0_wp, 3.0_wp, 10.0_wp, 27.0_wp], &
+      [3, 3])/480.0_wp
+
+    if (nodes == corners) then
+      weight = linear(along, along)*linear_moment(across, across)
+    else
+      weight = quadratic(station_of, station_of)*quadratic_moment(row_of, row_of)
+    end if
+  end function pressure_moments
 
   !> Stiffness of one element.
   !>

@@ -25,6 +25,8 @@ module gfb_bearing_answer
     logical :: present = .false.
     real(wp) :: area = 0.0_wp          !! of the pads [m2]
     real(wp) :: thinnest(2) = 0.0_wp   !! radius and angle where the film is thinnest [m], [rad]
+    !> of the first pad's top foil, at the inner and outer corner of its trailing edge [m]
+    real(wp) :: trailing_deflection(2) = 0.0_wp
     real(wp) :: centre(2) = 0.0_wp     !! of the pressure on pad 1, from its leading edge; 0: none
     integer :: pads = 1, pads_solved = 1
   end type ring_answer_type
@@ -58,6 +60,8 @@ module gfb_bearing_answer
     type(ring_answer_type) :: ring
     !> (5, pads) share of each of several pads [N], [N m]
     real(wp), allocatable :: pad_force(:, :)
+    !> of springs under a plate, pad 1, one a crest from its leading edge on [N]
+    real(wp), allocatable :: line_force(:)
     real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
     real(wp), allocatable :: pad_lift(:, :)        !! (2, pads) `leading_edge_lift` of each pad [m]
   end type bearing_answer_type
@@ -131,8 +135,9 @@ contains
     answer%rough_peclet = largest(7)
     answer%maximum_deflection = largest(8)
     if (whole) answer%contact = measures_of(largest(9:), sum(contact, 2))
-    if (whole .and. abs(bearing%pad(1)%film%surface%sine) > 0.0_wp) then
+    if (whole .and. bearing%pad(1)%film%surface%is_ring()) then
       answer%ring = ring_answer(bearing, pressure, gap)
+      if (answer%has_foils) answer%ring%trailing_deflection = trailing_deflection(bearing, unknown)
     end if
   end function bearing_answer
 
@@ -166,6 +171,27 @@ contains
       end if
     end associate
   end function ring_answer
+
+  !> Deflection of the first pad's top foil at the inner and outer corner of its trailing edge [m].
+  function trailing_deflection(bearing, unknown) result(corner)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp) :: corner(2)
+    integer :: i, last
+
+    corner = 0.0_wp
+    associate (pad => bearing%pad(1))
+      last = pad%whole%nodes()
+      associate (moved => pad%foil%deflection(unknown(pad%first + 1:pad%last)))
+        do i = 1, size(moved)
+          if (.not. pad%mesh%owned(i)) cycle
+          if (pad%mesh%mesh_node(i) == last - pad%whole%rows() + 1) corner(1) = moved(i)
+          if (pad%mesh%mesh_node(i) == last) corner(2) = moved(i)
+        end do
+      end associate
+    end associate
+    corner = sum_over_ranks(corner)
+  end function trailing_deflection
 
   !> Radius and angle of the smallest gap; of places that are alike the last one along the motion,
   !> and there the outermost.
@@ -286,7 +312,11 @@ contains
       share = share + bearing%pad(i)%foil%crest_lengths()
     end do
     share = sum_over_ranks(share)
-    if (share(2) > 0.0_wp) answer%lifted_length = share(1)/share(2)
+    if (share(2) > 0.0_wp .and. bearing%has_contacts()) answer%lifted_length = share(1)/share(2)
+    associate (pad => bearing%pad(1))
+      answer%line_force = sum_over_ranks(pad%foil%line_forces(unknown(pad%first + 1:pad%last)))
+      if (pad%whole%half) answer%line_force = 2.0_wp*answer%line_force
+    end associate
   end subroutine read_lifts
 
   !> Adds this rank's lifts of the edges of a pad's top foil, and how many nodes they are of.

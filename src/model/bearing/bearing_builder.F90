@@ -11,8 +11,9 @@ module gfb_bearing_builder
   use gfb_scene_rules, only: solves_one_pad
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan, foil_rigid, &
-                            foil_elastic_foundation, foil_beam
+                            foil_elastic_foundation, foil_beam, foil_plate
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh
+  use gfb_crest_lines, only: plate_sides
   use gfb_foil_builder, only: plate_stations, shape_on_pad, gaps_beside
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
@@ -38,6 +39,7 @@ module gfb_bearing_builder
   use gfb_foundation_foil, only: foundation_foil_type, build_foundation
   use gfb_shell_foil, only: shell_foil_type, create_shell_foil
   use gfb_beam_foil, only: beam_foil_type, create_beam_foil
+  use gfb_plate_foil, only: plate_foil_type, create_plate_foil
   implicit none (type)
   private
   public :: build_bearing, build_opposite, build_like, take_numbers, divide_bearing, film_mesh_of, heat_of
@@ -159,7 +161,7 @@ contains
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
-    bearing%sparse = scene%model%foil /= foil_shell
+    bearing%sparse = all(scene%model%foil /= [foil_shell, foil_plate])
     if (scene%model%has_strips()) then
       call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, foil%rate, bearing%pad(1)%film)
     end if
@@ -332,7 +334,9 @@ contains
       if (bearing%is_thrust()) then
         mesh = sector_film_mesh([bearing%inner_radius, bearing%radius], bearing%leading_edge_angle, pad_angle(bearing), &
                                 bearing%ramp_part*pad_angle(bearing), scene%model%cut_radii, plan%circumferential, plan%axial, &
+                                merge(1.0_wp, scene%mesh%edge_refinement, scene%model%foil == foil_plate), &
                                 scene%mesh%edge_refinement, plan%order)
+        if (scene%model%foil == foil_plate) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene))
         if (solves_one_pad(scene)) mesh%repeats = bearing%pads
       else if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
@@ -342,7 +346,9 @@ contains
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
                                  bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order, &
                                  scene%mesh%edge_refinement)
-        if (scene%bore%present .and. .not. meshes_foils(scene%model%foil)) then
+        if (scene%model%foil == foil_plate) then
+          call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene))
+        else if (scene%bore%present .and. .not. meshes_foils(scene%model%foil)) then
           call align_stations(mesh, bore_kinks(scene%bore%profile, pad_turn(bearing, [(i, i=1, bearing%pads)])))
         end if
       end if
@@ -367,6 +373,7 @@ contains
     type(foundation_foil_type), allocatable :: foundation
     type(shell_foil_type), allocatable :: shells
     type(beam_foil_type), allocatable :: beams
+    type(plate_foil_type), allocatable :: plate
 
     select case (scene%model%foil)
     case (foil_rigid)
@@ -385,6 +392,10 @@ contains
       allocate (beams)
       call create_beam_foil(scene, film, mesh, element_nodes, beams)
       call move_alloc(beams, foil)
+    case (foil_plate)
+      allocate (plate)
+      call create_plate_foil(scene, film, mesh, element_nodes, division, plate, error)
+      if (.not. allocated(error)) call move_alloc(plate, foil)
     case default
       error stop 'a foil model that nothing builds'
     end select

@@ -21,6 +21,7 @@ module gfb_contact_point
     real(wp), allocatable :: lever(:, :)  !! (3, turns) how a turn moves slave against master [m]
     real(wp) :: frame(spatial, spatial) = 0.0_wp !! columns: two tangents, normal towards the slave
     real(wp) :: length = 0.0_wp                !! of contact line the node stands for [m]
+    real(wp) :: hardness = 1.0_wp              !! of this one, over the law's [1]
     !> between the unloaded foils at rest, or where a plate has been moved to [m]
     real(wp) :: gap = 0.0_wp
     logical :: pressed = .false.               !! the normal force is given, not a matter of contact

@@ -51,7 +51,7 @@ contains
 
     law = self%law(point%law)
     law%stick_length = law%stick_length*self%softening
-    law%normal_stiffness = law%normal_stiffness*self%hardness
+    law%normal_stiffness = law%normal_stiffness*self%hardness*point%hardness
     law%adhesion = self%adhesion
     law%stick_pressing = point%stick_pressing
   end function law_of

@@ -174,7 +174,7 @@ contains
       associate (foil => bearing%pad(i)%foil)
         call number_by(bearing, i, matrix)
         call foil%add_springs(matrix)
-        if (foil%is_meshed()) call add_of_foil(bearing%blocks, foil, i, foil%elastic, foil%modulus, .false., matrix)
+        if (foil%is_meshed() .and. foil%elastic_loses) call add_of_foil(bearing%blocks, foil, i, foil%elastic, foil%modulus, .false., matrix)
       end associate
     end do
     call finish(bearing, matrix)

@@ -320,7 +320,7 @@ contains
     call add_initial_moment(scene%top_foil, film, foil)
     call add_pressure(film, mesh, element_nodes, &
                       scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
-    call size_unknowns(scene, film, turning(foil), foil)
+    call size_unknowns(scene, film, turning(foil), scene%bump_foil%half_length%value, foil)
     foil%equation_scale = foil%equation_scale*film%axial() ! a station carries what its nodes do
     call count_entries(foil, film)
   end subroutine create_beam_foil

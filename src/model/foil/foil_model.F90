@@ -28,6 +28,7 @@ module gfb_foil_model
     integer :: first = 0      !! local unknowns of the bearing before the foil's first
     integer :: couplings = 0  !! entries a film node's row needs for the foil, at most
     integer, allocatable :: row_entries(:) !! entries that the row of each owned unknown needs, at most
+    logical :: elastic_loses = .true. !! its loss factor is that of `elastic`, too, not of springs alone
     Mat :: elastic            !! matrix of its linear equations, where it is meshed; the foil's own numbers [SI]
     type(cost_events_type) :: events !! of PETSc's log
     integer, allocatable :: global_unknown(:)  !! foil's own number of each local unknown, by owners
@@ -46,7 +47,7 @@ module gfb_foil_model
     procedure :: add_mass, natural_numbers, surfaces, own_unknown, motions, nodal_contacts, sizes
     procedure :: destroy, place, local_unknowns, own_part, deflection, has_contacts, settle
     procedure :: begin_step, settle_at, commit, add_springs, put_damping, softest, crest_lengths
-    procedure :: next_contact_change, add_penetration_rates
+    procedure :: next_contact_change, add_penetration_rates, line_forces
   end type foil_model_type
 
 contains
@@ -302,6 +303,14 @@ contains
       end associate
     end do
   end function crest_lengths
+
+  !> This rank's share of the force of each line of springs on the foil; none where there are no lines.
+  function line_forces(self, unknown) result(force)
+    class(foil_model_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: unknown(:) !! local unknowns of the pad, in SI
+    real(wp), allocatable :: force(:) !! [N]
+    allocate (force(0))
+  end function line_forces
 
   !> The fraction of the path between two states, or on beyond, after which the first of this rank's
   !> contacts opens or closes; huge where none does.

@@ -13,7 +13,7 @@ module gfb_foil_places
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_contact_laws, only: set_contact_laws
-  use gfb_shell_element, only: pressure_weights
+  use gfb_shell_element, only: pressure_weights, pressure_moments
   use gfb_meshed_foil, only: meshed_foil_type
   use gfb_initial_moment, only: set_initial_moment
   implicit none (type)
@@ -179,10 +179,12 @@ contains
 
     integer, parameter :: corners = 4 !! of a bilinear element
     integer :: i, nodes, station(size(element_nodes, 1)), row(size(element_nodes, 1))
-    real(wp) :: area, unit(size(element_nodes, 1), size(element_nodes, 1))
+    real(wp) :: area, width
+    real(wp), dimension(size(element_nodes, 1), size(element_nodes, 1)) :: unit, moment
 
     nodes = size(element_nodes, 1)
     unit = pressure_weights(nodes)
+    moment = pressure_moments(nodes)
     ! Pressures that yield to the foil couple its nodes; those of a cell are coupled anyway.
     foil%has_room = yields .and. nodes > corners
     foil%pressed = element_nodes
@@ -195,19 +197,25 @@ contains
       area = film%surface%radius*(maxval(film%station_angle(station)) - minval(film%station_angle(station)))* &
              (maxval(film%row_axial(row)) - minval(film%row_axial(row)))
       foil%weight(:, :, i) = area*unit
+      if (.not. film%surface%is_ring()) cycle
+      width = maxval(film%row_axial(row)) - minval(film%row_axial(row))
+      associate (middle => 0.5_wp*(maxval(film%row_axial(row)) + minval(film%row_axial(row))))
+        foil%weight(:, :, i) = area/film%surface%radius*(middle*unit + width*moment)
+      end associate
     end do
   end subroutine add_pressure
 
   !> Sizes of displacements and forces.
-  subroutine size_unknowns(scene, film, turning, foil)
+  subroutine size_unknowns(scene, film, turning, arm, foil)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(film_mesh_type), intent(in) :: film !! the film's whole mesh
     integer, intent(in) :: turning(:) !! foil's numbers of this rank's rotations; it needs no others
+    real(wp), intent(in) :: arm !! of a displacement over a rotation that are alike [m]
     class(meshed_foil_type), intent(inout) :: foil !! gets the sizes of its unknowns and equations
     real(wp) :: force, scale(size(foil%global_unknown))
 
     scale = 1.0_wp
-    scale(place_of(foil%global_unknown, turning)) = scene%bump_foil%half_length%value
+    scale(place_of(foil%global_unknown, turning)) = arm
     force = scene%gas%ambient_pressure*pad_length(scene%bearing)/film%circumferential()* &
             scene%bearing%length/(film%order*scene%mesh%axial_elements)
     foil%unknown_scale = scene%bearing%clearance/scale

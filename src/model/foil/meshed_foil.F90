@@ -288,11 +288,13 @@ contains
     real(wp), intent(in) :: modulus(2) !! see `soften`
     type(surface_motion_type), allocatable :: list(:)
     type(foil_surface_type), allocatable :: surface(:)
+    real(wp), allocatable :: bumps(:, :)
     integer :: i
 
-    allocate (list(bump_surface))
-    call self%split_displacements(unknown, list(top_surface)%displacement, list(bump_surface)%displacement)
     surface = self%surfaces()
+    allocate (list(size(surface)))
+    call self%split_displacements(unknown, list(top_surface)%displacement, bumps)
+    if (size(list) >= bump_surface) call move_alloc(bumps, list(bump_surface)%displacement)
     do i = 1, size(list)
       associate (displacement => list(i)%displacement)
         if (i == top_surface .and. allocated(self%initial_load)) then

@@ -38,7 +38,7 @@ module gfb_shell_foil
   use gfb_initial_moment, only: add_initial_moment
   implicit none (type)
   private
-  public :: create_shell_foil
+  public :: create_shell_foil, add_mass_block, expand, turning, work_of_surface
 
   !> Both foils, each a structure of shells, full or condensed.
   type, extends(meshed_foil_type), public :: shell_foil_type
@@ -81,7 +81,7 @@ contains
       do i = 1, size(top%my_elements)
         call shell_mass(element_geometry(top%mesh, top%my_elements(i)), top%section, block, error)
         if (allocated(error)) return
-        call add_block(mass, ranges%of_top(element_unknowns(top, top%my_elements(i))), block)
+        call add_mass_block(mass, ranges%of_top(element_unknowns(top, top%my_elements(i))), block)
       end do
     end associate
     if (self%bumps%reduced) then
@@ -93,19 +93,19 @@ contains
         call shell_mass(element_geometry(bumps%mesh, bumps%my_elements(i)), &
                         element_section(bumps%mesh, bumps%section, bumps%my_elements(i)), block, error)
         if (allocated(error)) return
-        call add_block(mass, ranges%of_bumps(element_unknowns(bumps, bumps%my_elements(i))), block)
+        call add_mass_block(mass, ranges%of_bumps(element_unknowns(bumps, bumps%my_elements(i))), block)
       end do
     end associate
   end subroutine add_shell_mass
 
   !> Adds an element's mass.
-  subroutine add_block(mass, number, block)
-    Mat, intent(in) :: mass
+  subroutine add_mass_block(mass, number, block)
+    Mat, intent(in) :: mass !! of the foil [kg]
     integer, intent(in) :: number(:) !! foil's, from 1; 0: fixed
-    real(wp), intent(in) :: block(:, :)
+    real(wp), intent(in) :: block(:, :) !! of the element [kg]
     PetscErrorCode :: ierr
     PetscCallA(MatSetValues(mass, int(size(number), pint), int(number - 1, pint), int(size(number), pint), int(number - 1, pint), [block], ADD_VALUES, ierr))
-  end subroutine add_block
+  end subroutine add_mass_block
 
   !> The kinds of condensed pieces that this rank has.
   !>
@@ -188,9 +188,9 @@ contains
 
   !> Displacements of one structure's nodes from its owned unknowns.
   subroutine expand(structure, owned, moved)
-    type(foil_structure_type), intent(in) :: structure
+    type(foil_structure_type), intent(in) :: structure !! of shells
     real(wp), intent(in) :: owned(:) !! in SI
-    real(wp), allocatable, intent(out) :: moved(:, :)
+    real(wp), allocatable, intent(out) :: moved(:, :) !! (5, local nodes) [m], [rad]
     Vec :: solution
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
@@ -213,10 +213,19 @@ contains
     value = shell_stresses(surface, moved)
   end function stresses_of_shells
 
-  !> Work of shells. Neighbours of the same shape share a stiffness.
+  !> Work of shells.
   subroutine work_of_shells(self, surface, moved, work, error)
     class(shell_foil_type), intent(in) :: self !! the shell foil
     type(foil_surface_type), intent(in) :: surface !! one of the foil's two, whose numbers may differ
+    real(wp), intent(in) :: moved(:, :, 0:) !! (5, local nodes, motions) first that whose forces work [m], [rad]
+    real(wp), intent(out) :: work(:) !! on each of the others [J]
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    call work_of_surface(surface, moved, work, error)
+  end subroutine work_of_shells
+
+  !> Work of a surface of shells. Neighbours of the same shape share a stiffness.
+  subroutine work_of_surface(surface, moved, work, error)
+    type(foil_surface_type), intent(in) :: surface !! whose numbers may differ from those it was built with
     real(wp), intent(in) :: moved(:, :, 0:) !! (5, local nodes, motions) first that whose forces work [m], [rad]
     real(wp), intent(out) :: work(:) !! on each of the others [J]
     type(error_type), allocatable, intent(out) :: error !! why it failed
@@ -247,7 +256,7 @@ contains
         end do
       end associate
     end do
-  end subroutine work_of_shells
+  end subroutine work_of_surface
 
   !> Whether an element is another one, moved.
   pure logical function is_same(here, other) result(same)
@@ -438,13 +447,13 @@ contains
     call add_initial_moment(scene%top_foil, film, foil)
     call add_pressure(film, mesh, element_nodes, &
                       scene%model%coupling == coupling_partitioned .or. scene%shaft_contact%present, foil)
-    call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], foil)
+    call size_unknowns(scene, film, [turning(foil%top, ranges%top_shift), turning(foil%bumps, ranges%bump_shift)], scene%bump_foil%half_length%value, foil)
     call count_entries(foil, film)
   end subroutine create_shell_foil
 
   !> Foil's numbers of this rank's own rotations.
   function turning(structure, shift) result(list)
-    type(foil_structure_type), intent(in) :: structure
+    type(foil_structure_type), intent(in) :: structure !! of shells
     integer, intent(in) :: shift !! from a number of the structure, from 0, to the foil's
     integer, allocatable :: list(:)
     integer :: own(node_unknowns - axial, count(structure%part%owned)), i, k, component

@@ -118,7 +118,7 @@ contains
   !> Mesh of a sector: stations along the motion, rows from the inner to the outer radius; both
   !> graded towards the edges, with sides of elements where the ramp ends and where strips meet.
   pure function sector_film_mesh(radii, leading_edge_angle, pad_angle, ramp_end, cuts, &
-                                 circumferential, radial, refinement, order) result(mesh)
+                                 circumferential, radial, along, refinement, order) result(mesh)
     real(wp), intent(in) :: radii(2)           !! inner and outer one [m]
     real(wp), intent(in) :: leading_edge_angle !! theta_0 [rad]
     real(wp), intent(in) :: pad_angle          !! from leading to trailing edge [rad]
@@ -126,7 +126,7 @@ contains
     real(wp), intent(in) :: cuts(:)            !! radii where strips meet, rising [m]
     integer, intent(in) :: circumferential     !! elements along the motion
     integer, intent(in) :: radial              !! elements along the radius
-    real(wp), intent(in) :: refinement         !! see axial_rows [1]
+    real(wp), intent(in) :: along, refinement  !! of stations and rows, see axial_rows [1]
     integer, intent(in) :: order               !! of the elements: 1 or 2
     type(film_mesh_type) :: mesh
     real(wp), allocatable :: angle(:), radius(:)
@@ -137,7 +137,7 @@ contains
       + axial_rows(radii(2) - radii(1), radial, .false., refinement, order)
     radius([1, size(radius)]) = radii
     call put_sides_on(cuts, order, radius)
-    angle = 0.5_wp*pad_angle + axial_rows(pad_angle, circumferential, .false., refinement, order)
+    angle = 0.5_wp*pad_angle + axial_rows(pad_angle, circumferential, .false., along, order)
     angle([1, size(angle)]) = [0.0_wp, pad_angle]
     call put_sides_on([ramp_end], order, angle)
     mesh%row_axial = radius

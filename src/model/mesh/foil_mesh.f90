@@ -202,15 +202,26 @@ contains
     angle = 2.0_wp*atan2(height, half_length)
   end function half_angle
 
-  !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0).
+  !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0). Of a ring it is a sector,
+  !> x and z straight, z along the radius in its middle.
   pure function top_mesh(film, height, window) result(mesh)
     type(film_mesh_type), intent(in) :: film   !! the film's mesh
     real(wp), intent(in) :: height             !! of the mid-surface above the flats' [m]
     integer, intent(in), optional :: window(2) !! first and last station; default: all
     type(quad_mesh_type) :: mesh
+    real(wp) :: turned !! from the pad's middle [rad]
+    integer :: node, last
 
     mesh = top_foil_mesh(film%surface%radius*(film%station_angle - film%station_angle(1)), height, &
                          film%row_axial, film%half, window)
+    if (.not. film%surface%is_ring()) return
+    last = film%stations()
+    do node = lbound(mesh%position, 2), ubound(mesh%position, 2)
+      turned = film%station_angle((node - 1)/mesh%rows + 1) &
+               - 0.5_wp*(film%station_angle(1) + film%station_angle(last))
+      mesh%position(1::2, node) = film%row_axial(modulo(node - 1, mesh%rows) + 1)* &
+                                  [sin(turned), cos(turned)]
+    end do
   end function top_mesh
 
   !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,

@@ -48,7 +48,7 @@ contains
     film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + bearing%pad(before + 1)%film%surface%offset, &
                            this_rank(), rank_count())
     associate (surface => bearing%pad(1)%film%surface, point => film%grid%point)
-      ring = abs(surface%sine) > 0.0_wp
+      ring = surface%is_ring()
       angle = point(1:1, :)/surface%radius + bearing%pad(1)%whole%station_angle(1)
       do i = 1, merge(size(point, 2), 0, ring) ! a ring is no plane when it is unrolled
         point(:, i) = surface%position(angle(1, i), point(3, i))

@@ -8,6 +8,8 @@ module gfb_foil_grid
   use gfb_quad_mesh, only: solid_rows
   use gfb_grid, only: result_grid_type, block_bounds, add_grid_field
   use gfb_text, only: text
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_units, only: turn
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
@@ -240,12 +242,13 @@ contains
     type(result_grid_type) :: grid
     real(wp) :: unknown(bearing%local_size())
     character(len=:), allocatable :: behind !! the surface's name
-    integer :: i, k
+    integer :: i, k, copy, copies
 
     call bearing%get_unknowns(unknown)
     surface = bearing%pad(1)%foil%surfaces()
     if (size(surface) == 0) return
     behind = ''
+    copies = bearing%pad(1)%whole%repeats
     do k = 1, size(bearing%pad)
       associate (pad => bearing%pad(k))
         if (size(bearing%pad) > 1) behind = '_'//text(k)
@@ -256,9 +259,37 @@ contains
           call add_displacement(surface(i), 'displacement', 'of the mid-surface', motion(i)%displacement, grid)
           call add_stress(surface(i), motion(i)%stress, grid)
           if (surface(i)%has_contacts) call add_contacts(pad%foil%nodal_contacts(), surface(i), grid)
-          grids = [grids, grid]
+          do copy = 1, merge(copies, 0, pad%whole%surface%is_ring())
+            if (copies > 1) behind = '_'//text(copy)
+            grids = [grids, grid_in_space(grid, surface(i)%name//behind, pad%whole, turn*real(copy - 1, wp)/real(copies, wp))]
+          end do
+          if (.not. pad%whole%surface%is_ring()) grids = [grids, grid]
         end do
       end associate
     end do
   end subroutine add_foil_grids
+
+  !> A sector's surface where it lies in space, its upper face up: x and z of its mesh turn with the ray in the pad's middle.
+  function grid_in_space(grid, name, film, further) result(placed)
+    type(result_grid_type), intent(in) :: grid !! in the mesh's own directions
+    character(len=*), intent(in) :: name !! of the grid and its file
+    type(film_mesh_type), intent(in) :: film !! over it
+    real(wp), intent(in) :: further !! turn of a pad for which this one stands [rad]
+    type(result_grid_type) :: placed
+    real(wp) :: angle, turned(3, 3)
+    integer :: i
+
+    angle = 0.5_wp*(film%station_angle(1) + film%station_angle(film%stations())) + further
+    turned(:, 1) = [-sin(angle), cos(angle), 0.0_wp]
+    turned(:, 2) = [0.0_wp, 0.0_wp, 1.0_wp]
+    turned(:, 3) = [cos(angle), sin(angle), 0.0_wp]
+    placed = grid
+    placed%name = name
+    placed%grid%point = matmul(turned, grid%grid%point)
+    do i = 1, size(placed%point_field)
+      associate (field => placed%point_field(i))
+        if (size(field%block, 1) == size(turned, 1)) field%block = matmul(turned, field%block)
+      end associate
+    end do
+  end function grid_in_space
 end module gfb_foil_grid

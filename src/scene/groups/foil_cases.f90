@@ -6,7 +6,7 @@ module gfb_foil_cases
                            rule_type, unless, at_least, from_to, not_negative
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text
-  use gfb_bearing_case, only: bearing_case_type, pad_length
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_length
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner
   implicit none (type, external)
@@ -86,6 +86,8 @@ module gfb_foil_cases
     integer :: fixed_edge = fixed_edge_trailing
     integer :: fixed_line = fixed_line_corner
     logical :: poissons_ratio_given = .false.
+    !> of crests under a plate, from its leading edge; none: by pitch [rad]
+    real(wp), allocatable :: crest_angles(:)
     !> at rest, one a bump from the smallest x on; not allocated: all crests touch [m]
     real(wp), allocatable :: crest_gap(:)
     !> at rest between the corners of each bump and the sleeve; not allocated: all touch [m]
@@ -96,9 +98,10 @@ module gfb_foil_cases
 contains
 
   !> Reads the group.
-  subroutine read_top_foil_case(keys, foil, needs)
+  subroutine read_top_foil_case(keys, foil, thrust, needs)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(top_foil_case_type), intent(out) :: foil !! what `&top_foil` asks for
+    logical, intent(in) :: thrust !! the pads are sectors, fixed where their ramp begins
     type(needs_type), intent(in) :: needs !! of the analysis
 
     call keys%start_group('top_foil', required=needs%top_foil, optional=.true., &
@@ -111,7 +114,9 @@ contains
                        between(-1.0_wp, 0.5_wp), needs%top_foil, default=no_default)
     call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needs%top_mass, &
                        default=no_default)
-    call keys%choice_key('fixed_edge', foil%fixed_edge, top_foil_edges, 'where the foil is fixed')
+    if (thrust) foil%fixed_edge = top_foil_leading
+    call keys%choice_key('fixed_edge', foil%fixed_edge, top_foil_edges, 'where the foil is '// &
+                         'fixed; of thrust bearings it is leading by default')
     call keys%real_key('free_radius', foil%free_radius, 'm', 'radius of the foil before it is '// &
                        'put in: larger than `radius` presses it on its bumps, smaller lifts it', &
                        positive, default='`radius`')
@@ -353,7 +358,7 @@ contains
     call foil%height%read_value(keys, needs%bumps)
     call keys%integer_key('bumps', foil%bumps, 'number of bumps', from_to(1.0_wp, most_bumps), &
                           needs%bumps, default=no_default)
-    if (foil%bumps > 0) foil%pitch%value = pad_length(bearing)/foil%bumps
+    if (foil%bumps > 0) foil%pitch%value = strip_length(bearing)/foil%bumps
     call foil%pitch%read_value(keys, needs%pitch, 'length of the pad / `bumps`')
     call foil%pitch%read_by_bump(keys, foil%bumps)
     call foil%half_length%read_by_bump(keys, foil%bumps)
@@ -362,7 +367,7 @@ contains
     if (needs%bumps .and. .not. needs%width) foil%width = bearing%length
     call keys%real_key('width', foil%width, 'm', 'width of the strip, along the axis', positive, &
                        needs%width, default='required for strips; a bearing''s length')
-    call read_cuts(keys, foil)
+    call read_cuts(keys, foil, bearing%is_thrust())
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'the strip begins at its fixed edge with an arc, a flat, or half a flat')
@@ -374,13 +379,26 @@ contains
                        'between a bump''s two corner lines and the sleeve', not_negative, &
                        '0: all corners touch')
     call read_height_deviation(keys, foil, gaps, foil%strips*bearing%pads)
+    call keys%real_list_key('crest_angles', foil%crest_angles, longest_list, 'rad', 'where '// &
+                            'the crests under a plate stand, from the leading edge of the pad '// &
+                            'on', at_least(0.0_wp), .false., 'from `pitch`')
     call check_geometry(keys, foil, bearing)
   end subroutine read_bump_foil_case
 
+  !> Length of the pad that bumps lie under [m].
+  elemental real(wp) function strip_length(bearing) result(length)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+
+    length = pad_length(bearing)
+    if (bearing%is_thrust()) length = 0.5_wp*(bearing%inner_radius + bearing%radius)* &
+                                      pad_angle(bearing)*(1.0_wp - bearing%ramp_part)
+  end function strip_length
+
   !> Reads how the strip is cut into strips side by side.
-  subroutine read_cuts(keys, foil)
+  subroutine read_cuts(keys, foil, thrust)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(inout) :: foil
+    logical, intent(in) :: thrust !! a single strip may begin behind the ramp
     character(len=:), allocatable :: useless
     real(wp) :: strip !! width of each [m]
     logical :: right
@@ -399,8 +417,9 @@ contains
     call foil%half_length%read_by_strip(keys, foil%strips, positive, useless)
     call foil%height%read_by_strip(keys, foil%strips, positive, useless)
     call foil%thickness%read_by_strip(keys, foil%strips, positive, useless)
+    if (thrust) useless = ''
     call foil%offset%read_by_strip(keys, foil%strips, not_negative, useless, &
-                                   '0: strips begin at the edge of the pad')
+                                   '0: strips begin at the edge of the pad, or its ramp''s end')
     if (.not. right .or. .not. foil%width > 0.0_wp) return
     strip = solid_width(foil)/real(foil%strips, wp)
     if (foil%cut_width < strip) return

@@ -1,12 +1,12 @@
 !> `&mesh`, the number of elements, and `&solver`, tolerances and limits of the solution.
 module gfb_mesh_case
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_length, kind_journal, needs_journal, &
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, kind_journal, needs_journal, &
                               needs_thrust
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type
-  use gfb_model_case, only: model_case_type, meshes_foils
+  use gfb_model_case, only: foil_plate, model_case_type, meshes_foils
   implicit none (type, external)
   private
   public :: solver_case_type, read_solver_case, mesh_case_type, read_mesh_case
@@ -107,7 +107,7 @@ contains
 
     call keys%start_group('mesh')
     ! As many nodes, whatever the order of the film's elements.
-    mesh%circumferential_elements = default_circumferential_elements(bearing, foil)/model%film_order
+    mesh%circumferential_elements = elements_along_pad(bearing, foil, model)/model%film_order
     mesh%axial_elements = mesh%axial_elements/model%film_order
     if (bearing%is_thrust()) mesh%edge_refinement = ring_refinement
     call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
@@ -152,17 +152,37 @@ contains
                    "height in &bump_foil; 'beam' will do, too")
   end subroutine read_mesh_case
 
+  !> Radius at which a pitch is measured [m].
+  pure real(wp) function foil_radius(bearing, model) result(radius)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
+
+    radius = bearing%radius
+    if (.not. (bearing%is_thrust() .and. model%foil == foil_plate)) return
+    radius = 0.5_wp*(bearing%inner_radius + bearing%radius)
+  end function foil_radius
+
   !> Elements along the pad where the case does not say: whole pitches that cover it.
-  elemental integer function default_circumferential_elements(bearing, foil) result(elements)
+  pure integer function elements_along_pad(bearing, foil, model) result(elements)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
+    type(model_case_type), intent(in) :: model !! what `&model` asks for
     real(wp), parameter :: rounding = 1.0e-9_wp !! whole pitches are not rounded up, relative
     real(wp) :: pitches
 
     elements = elements_around
     if (bearing%is_thrust()) elements = elements_of_sector
-    if (.not. foil%pitch%value > 0.0_wp .or. .not. bearing%radius > 0.0_wp) return
-    pitches = pad_length(bearing)/foil%pitch%value*(1.0_wp - rounding)
+    if (.not. bearing%radius > 0.0_wp) return
+    if (foil%pitch%value > 0.0_wp) then
+      pitches = pad_angle(bearing)*foil_radius(bearing, model)/foil%pitch%value*(1.0_wp - rounding)
+    else if (size(foil%crest_angles) > 1) then
+      associate (crests => foil%crest_angles, n => size(foil%crest_angles))
+        pitches = pad_angle(bearing)/(max(crests(n) - crests(1), tiny(1.0_wp))/real(n - 1, wp))
+        pitches = pitches*(1.0_wp - rounding)
+      end associate
+    else
+      return
+    end if
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
-  end function default_circumferential_elements
+  end function elements_along_pad
 end module gfb_mesh_case

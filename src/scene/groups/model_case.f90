@@ -6,11 +6,12 @@ module gfb_model_case
   use gfb_scene_case, only: is_bearing, is_structure
   implicit none (type, external)
   private
-  public :: model_case_type, read_model_case, meshes_foils, foil_word, foil_meaning, foil_count
+  public :: model_case_type, read_model_case, meshes_foils, meshes_top_foil, &
+            foil_word, foil_meaning, foil_count
 
   !> Rows of the list of foil models, in its order.
   integer, parameter, public :: foil_rigid = 1, foil_elastic_foundation = 2
-  integer, parameter, public :: foil_shell = 3, foil_beam = 4
+  integer, parameter, public :: foil_shell = 3, foil_beam = 4, foil_plate = 5
 
   !> A foil model, as the scene knows it; `gfb_bearing_builder` has what each row builds.
   type :: foil_row_type
@@ -24,11 +25,14 @@ module gfb_model_case
     foil_row_type('elastic_foundation', .false., 'elastic foundation'), &
     foil_row_type('shell', .true., 'as shells in contact'), &
     foil_row_type('beam', .true., &
-                  'as planar beams in contact, under the axial mean of the pressure')]
+                  'as planar beams in contact, under the axial mean of the pressure'), &
+    foil_row_type('plate', .false., 'top foil of shells on springs along the crests of bumps')]
 
   !> What most keys of bumps say to other foils, and then why.
   character(len=*), parameter, public :: needs_meshes = &
     "needs foil = 'shell' in &model, or 'beam': "
+
+  character(len=*), parameter, public :: needs_plate = "needs foil = 'plate' in &model"
 
   integer, parameter, public :: reduction_guyan = 1 !! bumps condensed onto lines that can be loaded
   integer, parameter, public :: reduction_none = 2
@@ -37,6 +41,9 @@ module gfb_model_case
   integer, parameter, public :: half_width_auto = 1
   integer, parameter, public :: half_width_yes = 2
   integer, parameter, public :: half_width_no = 3
+
+  integer, parameter, public :: springs_one_sided = 1 !! they push the top foil alone
+  integer, parameter, public :: springs_two_sided = 2 !! they pull it, too
 
   integer, parameter, public :: film_scheme_auto = 1
   integer, parameter, public :: film_scheme_galerkin = 2
@@ -60,6 +67,7 @@ module gfb_model_case
   character(len=*), parameter :: scheme_words(*) = [character(len=8) :: 'auto', 'galerkin', 'supg']
   character(len=*), parameter :: coupling_words(*) = [character(len=11) :: &
                                                       'monolithic', 'partitioned']
+  character(len=*), parameter :: spring_words(*) = [character(len=9) :: 'one_sided', 'two_sided']
   character(len=*), parameter :: pressure_words(*) = [character(len=11) :: 'local', 'axial_mean', &
                                                       'radial_mean']
 
@@ -77,6 +85,9 @@ module gfb_model_case
     real(wp), allocatable :: strip_stiffness(:)  !! of each one; none: all are alike [N/m^3]
     real(wp) :: foundation_exponent = 0.0_wp     !! with which it changes along the radius [1]
     integer :: foundation_pressure = foundation_pressure_axial_mean
+    real(wp) :: crest_stiffness = 0.0_wp         !! under a plate; 0: from the bumps [N/m^2]
+    integer :: crest_springs = springs_one_sided
+    real(wp) :: spring_pitch = 0.0_wp            !! of springs at points; 0: along the lines [m]
   contains
     procedure :: has_strips
   end type model_case_type
@@ -109,13 +120,11 @@ contains
                          useless=journal)
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
                          'upwinding of the film elements')
-    if (thrust .and. any(model%foil == [foil_rigid, foil_elastic_foundation])) then
-      model%film_order = film_order_biquadratic
-    end if
+    if (thrust) model%film_order = film_order_biquadratic
     call keys%integer_key('film_order', model%film_order, '1: bilinear film elements; 2: '// &
                           'biquadratic ones, with twice as many node intervals each way as '// &
                           'elements (film and foils share the nodes)', from_to(1.0_wp, 2.0_wp), &
-                          default='2 for thrust bearings, rigid or on springs, otherwise 1', &
+                          default='2 for thrust bearings, otherwise 1', &
                           useless=unless(.not. is_structure(analysis), &
                                          'needs a film: strips and modes have none'))
     call keys%rule('model', 'film_order', model%film_order == film_order_biquadratic .and. &
@@ -153,12 +162,33 @@ contains
     if (model%foundation_pressure == foundation_pressure_radial_mean) then
       model%foundation_pressure = foundation_pressure_axial_mean
     end if
+    call read_crest_springs(keys, model)
     call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
                    model%foil == foil_elastic_foundation .and. &
                    model%foundation_pressure == foundation_pressure_local, 'cannot be '// &
                    "'partitioned' where foundation_pressure is 'local': springs under each "// &
                    'pressure have no equations of their own')
   end subroutine read_model_case
+
+  !> What a plate lies on.
+  subroutine read_crest_springs(keys, model)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(inout) :: model
+    character(len=:), allocatable :: useless
+
+    useless = unless(any(model%foil == [0, foil_plate]), needs_plate)
+    call keys%real_key('crest_stiffness', model%crest_stiffness, 'N/m^2', 'line force over '// &
+                       'deflection of the crests under a plate', positive, default= &
+                       'Walowit-Anno from `&bump_foil`, times the pitch', useless=useless)
+    call keys%choice_key('crest_springs', model%crest_springs, spring_words, 'whether the '// &
+                         'crests push the plate alone, which can lift, or hold it', &
+                         useless=useless)
+    call keys%real_key('spring_pitch', model%spring_pitch, 'm', 'from spring to spring along '// &
+                       'a crest, each of crest_stiffness times it: coil springs under a plate', &
+                       positive, default='none: crests are lines of springs', useless=useless)
+    call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
+                   model%foil == foil_plate, "cannot be 'partitioned' with foil = 'plate'")
+  end subroutine read_crest_springs
 
   !> Whether strips side by side have their own stiffness.
   pure logical function has_strips(self) result(has)
@@ -174,6 +204,12 @@ contains
     meshes = .false.
     if (foil > 0) meshes = foil_rows(foil)%meshed
   end function meshes_foils
+
+  !> Whether the top foil has a mesh, with bumps under it or springs.
+  elemental logical function meshes_top_foil(foil) result(meshes)
+    integer, intent(in) :: foil !! the model's, 0 where it is not known
+    meshes = meshes_foils(foil) .or. foil == foil_plate
+  end function meshes_top_foil
 
   !> The word of a foil model in a case file.
   pure function foil_word(foil) result(word)

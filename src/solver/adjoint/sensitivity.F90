@@ -22,6 +22,7 @@ module gfb_sensitivity
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_model_case, only: meshes_foils
   use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
   use gfb_newton, only: newton_type, solve_transposed
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
@@ -93,7 +94,7 @@ contains
     number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call combine(number, found%value, combined)
     call find_adjoints(scene, bearing, newton, tangent, answer%nodes, combined, adjoint, solved)
-    if (bearing%is_meshed()) call find_motions(bearing, adjoint, solved, answer)
+    if (meshes_foils(scene%model%foil)) call find_motions(bearing, adjoint, solved, answer)
     associate (parameter => scene%sensitivity%parameter)
       allocate (found%derivative(size(quantity_words), size(parameter)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       found%problem = ''
@@ -378,7 +379,7 @@ contains
         return
       end if
       call keep_elements(scene, there)
-      if (bearing%is_meshed() .and. keeps_meshes(scene, parameter%key)) then
+      if (meshes_foils(scene%model%foil) .and. keeps_meshes(scene, parameter%key)) then
         call evaluate_in_place(scene, there, parameter%key, bearing, answer, residual, number, work, valid, error)
       else
         call evaluate_rebuilt(there, bearing, answer, residual, number, valid, problem, error)

@@ -68,7 +68,7 @@ contains
         end associate
       end do
       call bearing%add_up(unknown, bearing%state)
-      if (allocated(small_surface(bump_surface)%mesh%cut)) then
+      if (any([(allocated(small_surface(i)%mesh%cut), i=bump_surface, size(surface))])) then
         call bearing%get_unknowns(now)
         do k = 1, size(bearing%pad)
           associate (from => small%pad(k), to => bearing%pad(k))
@@ -191,6 +191,7 @@ contains
     else
       along = find_places([(real(i, wp), i=1, small_surface%mesh%stations)], real(station, wp), .false.)
     end if
+    if (bearing%whole%surface%is_ring()) along%distance = 0.0_wp ! rotations are not about its rays
     across = find_places(small_surface%mesh%row_axial, surface%mesh%row_axial(row), small%whole%half)
     value = interpolated(small%foil, small_surface, number, coarse, along, across)
     call put_own(bearing%foil, number, wanted, value, unknown)
@@ -315,11 +316,11 @@ contains
   pure function between(first, second, share, distance) result(value)
     real(wp), intent(in) :: first(:), second(:) !! displacements there [m], [rad]
     real(wp), intent(in) :: share    !! of the way from the first to the second [1]
-    real(wp), intent(in) :: distance !! of the stations [m]
+    real(wp), intent(in) :: distance !! of the stations; 0: their rotations say nothing [m]
     real(wp) :: value(size(first))
 
     value = first + share*(second - first)
-    if (share <= 0.0_wp .or. share >= 1.0_wp) return
+    if (share <= 0.0_wp .or. share >= 1.0_wp .or. .not. distance > 0.0_wp) return
     associate (t => share, rest => 1.0_wp - share)
       value(radial) = (1.0_wp + 2.0_wp*t)*rest**2*first(radial) + t**2*(1.0_wp + 2.0_wp*rest)*second(radial) + &
         distance*t*rest*(rest*first(about_axis) - t*second(about_axis))

@@ -7,7 +7,8 @@ module gfb_bearing_plan
   use gfb_model_case, only: foil_elastic_foundation, meshes_foils, foil_shell, foil_word, &
                             foil_meaning, reduction_guyan, half_width_auto, half_width_yes, &
                             film_scheme_supg, film_scheme_auto, film_order_biquadratic, &
-                            foundation_pressure_axial_mean
+                            foundation_pressure_axial_mean, foil_plate, springs_two_sided
+  use gfb_crest_lines, only: crest_line_type, crest_lines
   use gfb_operation_case, only: angular_speed
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
@@ -24,7 +25,8 @@ module gfb_bearing_plan
   use gfb_foil_builder, only: plate_stations
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core
-  use gfb_memory_check, only: film_memory, bearing_memory, study_share, heated_memory, show_memory
+  use gfb_memory_check, only: film_memory, plate_memory, bearing_memory, study_share, &
+                              heated_memory, show_memory
   implicit none (type, external)
   private
   public :: plan_bearing
@@ -165,6 +167,7 @@ contains
     if (solves_one_pad(scene)) films = 1
     call show_few(films*nodes, scene, log)
     plan%memory = film_memory(films*nodes, rank_count())
+    if (scene%model%foil == foil_plate) plan%memory = plate_memory(films*nodes)
     if (scene%model%foil == foil_shell) call show_foil_sizes(scene, films, nodes, plan, log)
     plan%memory = plan%memory*study_share(scene, plan%half)
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
@@ -245,6 +248,8 @@ contains
       call log%line('foil: top foil and '//text(scene%bump_foil%bumps)//' bumps '// &
                     foil_meaning(scene%model%foil))
       call show_strips(scene%bump_foil, log)
+    else if (scene%model%foil == foil_plate) then
+      call describe_plate(scene, log)
     else
       call log%line('foil: '//foil_meaning(scene%model%foil))
       if (scene%bump_foil%present) then
@@ -252,6 +257,26 @@ contains
       end if
     end if
   end subroutine describe_foil
+
+  !> A plate, and the springs that it lies on.
+  subroutine describe_plate(scene, log)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+    type(crest_line_type), allocatable :: lines(:)
+    character(len=:), allocatable :: source, springs
+
+    lines = crest_lines(scene)
+    source = 'by Walowit-Anno from &bump_foil'
+    if (scene%model%crest_stiffness > 0.0_wp) source = 'as given'
+    springs = 'that push it'
+    if (scene%model%crest_springs == springs_two_sided) springs = 'that push and pull it'
+    if (scene%model%spring_pitch > 0.0_wp) then
+      springs = springs//', at points '//text(scene%model%spring_pitch*1.0e3_wp, 4)//' mm apart'
+    end if
+    call log%line('foil: '//foil_meaning(scene%model%foil))
+    call log%line('  '//text(maxval(lines%number))//' crests of '// &
+                  text(lines(1)%stiffness*1.0e-6_wp, 5)//' N/mm^2 '//source//', springs '//springs)
+  end subroutine describe_plate
 
   !> What heat flows through, and what of it is only estimated.
   subroutine describe_heat(scene, log)

@@ -19,7 +19,8 @@ module gfb_memory_check
   use gfb_scene_case, only: analysis_strip, analysis_modes
   implicit none (type, external)
   private
-  public :: strip_memory, bearing_memory, modes_memory, film_memory, factor_entries, study_share, &
+  public :: strip_memory, bearing_memory, modes_memory, film_memory, plate_memory, factor_entries, &
+            study_share, &
             heated_memory, rank_memory, show_memory, check_memory
 
   real(wp), parameter :: stated_factor = 1.5_wp !! estimate and peak differ by no more
@@ -89,6 +90,13 @@ contains
     bytes = real(nodes, wp)*a_film_node
     if (nodes <= few_unknowns) bytes = bytes*(1.0_wp + on_each_rank*real(ranks - 1, wp))
   end function film_memory
+
+  !> A plate under its film: three unknowns a node more [B].
+  pure real(wp) function plate_memory(nodes) result(bytes)
+    integer, intent(in) :: nodes !! that are solved
+    real(wp), parameter :: a_node = 2.2e4_wp !! [B]
+    bytes = real(nodes, wp)*a_node
+  end function plate_memory
 
   !> A bearing of shells [B].
   pure function bearing_memory(nodes, bump_unknowns, rows, reduced, linear_solver) result(bytes)
