@@ -9,7 +9,8 @@ module gfb_foil_rules
                             one_strip, sizes_mirror, complain_of_sizes, size_type, initial_curvature
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: foil_rigid, needs_meshes, coupling_partitioned, &
-                            foil_elastic_foundation, foil_shell, foundation_pressure_local, &
+                            foil_elastic_foundation, foil_shell, foil_plate, &
+                            foundation_pressure_local, &
                             meshes_foils, foil_word, foil_beam, half_width_yes
   use gfb_motion_cases, only: follow_unbalance, rotor_case_type
   use gfb_scene, only: scene_type
@@ -371,8 +372,8 @@ contains
     several = scene%bump_foil%strips > 1
     associate (part => scene%modes%part)
       modes = scene%general%analysis == analysis_modes .and. part > 0
-      call keys%rule(group, 'strips', several .and. lacks_bumps(scene), &
-                     needs_meshes//'no other foil has bumps')
+      call keys%rule(group, 'strips', several .and. lacks_bumps(scene) .and. scene%model%foil /= &
+                     foil_plate, needs_meshes//'no other foil but a plate has strips')
       call keys%rule(group, 'strips', several .and. modes, &
                      'must be 1 for modes: each strip has its own')
       call keys%rule('mesh', 'edge_refinement', several .and. scene%general%analysis == &

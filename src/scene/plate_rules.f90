@@ -29,8 +29,10 @@ contains
 
     call keys%refuse(bumps, angles, all(scene%model%foil /= [0, foil_plate]), needs_plate)
     if (scene%model%foil /= foil_plate) return
-    missing = [(.not. keys%meant(bumps, trim(needed(i))), i=1, size(needed))]
-    missing(5) = .not. (keys%meant(bumps, 'pitch') .or. keys%meant(bumps, 'bumps'))
+    missing = [(.not. (keys%meant(bumps, trim(needed(i))) .or. keys%meant(bumps, 'strip_'// &
+                trim(needed(i)))), i=1, size(needed))]
+    missing(5) = .not. (keys%meant(bumps, 'pitch') .or. keys%meant(bumps, 'bumps') .or. &
+                        keys%meant(bumps, 'strip_pitch'))
     call keys%rule('model', 'foil', any(missing) .and. &
                    .not. keys%meant('model', 'crest_stiffness'), "'plate' needs "// &
                    'crest_stiffness, or what is missing in &bump_foil: '// &
@@ -80,7 +82,7 @@ contains
           return
         end if
         last = angle(size(angle)) + foil%half_length%value/radius
-        if (angle(1) < 0.0_wp .or. last > pad_angle(bearing)*(1.0_wp + rounding)) then
+        if (bearing%is_thrust() .and. last > pad_angle(bearing)*(1.0_wp + rounding)) then
           call keys%complain(bumps, 'bumps', text(foil%bumps)//' bumps of the pitch '// &
                              text(foil%pitch%value)//' m end at '//text(last*degrees, 4)// &
                              ' deg, past the edge of the pad at '// &

@@ -90,6 +90,16 @@ def check_foundation(checks, folder):
                  1.5e-2)
 
 
+def check_strips(checks, folder):
+    """Two strips that nearly touch are one; a wide cut lets the plate sink between them."""
+    held = {"axial_gap": 8.0e-6}
+    bumps = {"crest_angles": CRESTS, "strips": 2}
+    whole, narrow, wide = (solve(folder, name, plate(held, bump_foil=strips)) for name, strips in (
+        ("whole", {"crest_angles": CRESTS}), ("narrow", bumps | {"cut_width": 1.0e-7}), ("wide", bumps | {"cut_width": 4.0e-3})))
+    checks.below("two strips 0.1 um apart: axial force", narrow["axial_force"]/whole["axial_force"] - 1.0, 1.0e-5)
+    checks.that("strips 4 mm apart: the plate is deflected farther", wide["maximum_deflection"] > whole["maximum_deflection"])
+
+
 def check_derivatives(checks, folder):
     """Derivatives by keys of plate and springs against differences of answers."""
     named = {"model%crest_stiffness": ("model", "crest_stiffness", 3.5e7), "top_foil%thickness": ("top_foil", "thickness", 1.5e-4)}
@@ -135,6 +145,7 @@ def main():
         check_reference(checks, folder)
         check_one_pad(checks, folder)
         check_foundation(checks, folder)
+        check_strips(checks, folder)
         check_derivatives(checks, folder)
         check_ranks(checks, folder)
         check_journal(checks, folder)
