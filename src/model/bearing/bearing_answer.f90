@@ -15,7 +15,7 @@ module gfb_bearing_answer
   use gfb_bearing_system, only: bearing_system_type, heat_flows
   implicit none (type, external)
   private
-  public :: bearing_answer, visit_answer
+  public :: bearing_answer, place_of_gap, visit_answer
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
@@ -193,10 +193,10 @@ contains
     corner = sum_over_ranks(corner)
   end function trailing_deflection
 
-  !> Radius and angle of the smallest gap; of places that are alike the last one along the motion,
-  !> and there the outermost.
+  !> Row (radius, or z) and angle of the smallest gap; of places that are alike the last one along
+  !> the motion, and there the outermost.
   function place_of_gap(bearing, gap, smallest) result(place)
-    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: gap(:)   !! at all film nodes [m]
     real(wp), intent(in) :: smallest !! of all ranks [m]
     real(wp), parameter :: alike = 1.0e-9_wp !! relative, and of angles [1], [rad]

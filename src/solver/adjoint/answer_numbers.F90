@@ -140,7 +140,7 @@ contains
     integer :: coordinate(forces)
 
     coordinate = [1, 2, 4, 5]
-    if (surface%sine > 0.0_wp) coordinate(1) = axial_coordinate
+    if (surface%is_ring()) coordinate(1) = axial_coordinate
   end function coordinates_of
 
   !> Numbers of heat, and the film's share of the friction torque. Heat that the gas carries is what is left: energy closes.

@@ -15,8 +15,8 @@ module gfb_bearing_solution
   use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_scene_point, only: operating_point, operating_point_type
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_petsc_session, only: largest_over_ranks
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_answer, only: place_of_gap
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
@@ -380,24 +380,13 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     character(len=:), allocatable :: words
     real(wp) :: unknown(bearing%local_size()), smallest, place(2)
-    real(wp), allocatable :: gap(:)
-    integer :: node, pad
 
     call bearing%get_unknowns(unknown)
-    gap = bearing%gap(unknown)
     smallest = bearing%smallest_gap()
-    place = -huge(place)
-    node = minloc(gap, 1)
-    if (node > 0) then
-      pad = count(bearing%pad%first_node < node)
-      associate (film => bearing%pad(pad)%film, here => node - bearing%pad(pad)%first_node)
-        if (gap(node) <= smallest) place = [film%angle(here), film%axial(here)]
-      end associate
-    end if
-    place = largest_over_ranks(place)
-    words = 'film thinnest at theta = '//text(place(1)/degree, 4)//' deg, '// &
-            trim(merge('r', 'z', bearing%pad(1)%film%surface%sine > 0.0_wp))//' = '// &
-            text(place(2)*1.0e3_wp, 3)//' mm: '//text(smallest*1.0e6_wp, 3)//' um'
+    place = place_of_gap(bearing, bearing%gap(unknown), smallest)
+    words = 'film thinnest at theta = '//text(place(2)/degree, 4)//' deg, '// &
+            trim(merge('r', 'z', bearing%pad(1)%film%surface%is_ring()))//' = '// &
+            text(place(1)*1.0e3_wp, 3)//' mm: '//text(smallest*1.0e6_wp, 3)//' um'
   end function thinnest_film
 
   !> A force across a journal's axis, or along a runner's.
@@ -407,7 +396,7 @@ contains
     character(len=:), allocatable :: words
 
     words = '('//text(force(1), 5)//', '//text(force(2), 5)//') N'
-    if (bearing%pad(1)%film%surface%sine > 0.0_wp) words = text(force(axial_coordinate), 5)//' N'
+    if (bearing%pad(1)%film%surface%is_ring()) words = text(force(axial_coordinate), 5)//' N'
   end function force_words
 
   !> Whether the edges of the film do not deflect: they are at ambient pressure.
