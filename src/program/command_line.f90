@@ -357,7 +357,7 @@ contains
       '  --template A    a case file to begin with, all keys with unit, default and'//next// &
       '                  meaning; A: equilibrium, fixed_position, strip, modes,'//next// &
       '                  linear_dynamics, load_capacity, lift_off,'//next// &
-      '                  misalignment_allowance, transient, periodic'//next// &
+      '                  misalignment_allowance, transient, periodic, thrust'//next// &
       '  --explain NAME  a key (or group%key), a group, or the name of a result;'//next// &
       '                  gfb help NAME does the same'//next// &
       '  --keys          table of all keys of a case file'//next// &

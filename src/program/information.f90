@@ -16,6 +16,10 @@ module gfb_information
   private
   public :: information
 
+  !> Of `--template`, beside the analyses: an equilibrium of a thrust bearing.
+  character(len=*), parameter :: thrust_template = 'thrust'
+  character(len=*), parameter :: template_words(*) = [analysis_words, [character(len= &
+                                 len(analysis_words)) :: thrust_template]]
   integer, parameter :: comment_column = 42, longest_line = 120 !! of a template
   character(len=1), parameter :: next = new_line('a')
   integer, parameter :: longest_name = 64
@@ -145,11 +149,11 @@ contains
     character(len=:), allocatable :: hint
 
     words = ''
-    if (all(analysis_words /= analysis)) then
-      hint = did_you_mean(nearest_word(analysis, analysis_words))
+    if (all(template_words /= analysis)) then
+      hint = did_you_mean(nearest_word(analysis, template_words))
       if (hint == '') hint = '.'
       call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//hint// &
-                ' The analyses are '//join(analysis_words, ', '))
+                ' The analyses are '//join(template_words, ', '))
       return
     end if
     call keys%open_text(example(analysis), 'template')
@@ -243,6 +247,8 @@ contains
     character(len=:), allocatable :: groups
 
     select case (analysis)
+    case (thrust_template)
+      groups = ' shaft_contact sweep sensitivity accuracy '
     case ('strip')
       groups = ' accuracy '
     case ('modes')
@@ -269,6 +275,17 @@ contains
 
     words = "&scene title='my first case' analysis='"//trim(analysis)//"' /"
     select case (analysis)
+    case (thrust_template)
+      words = "&scene title='my first case' analysis='equilibrium' / &bearing kind='thrust' "// &
+              'outer_radius=50.0e-3 inner_radius=25.0e-3 / &pads count=6 arc=0.785 / '// &
+              '&ramp part=0.5 height=20.0e-6 / &gas viscosity=1.85e-5 '// &
+              'ambient_pressure=1.01325e5 / &operation speed_rpm=40000.0 axial_load=150.0 / '// &
+              "&model foil='elastic_foundation' foundation_stiffness=10.0e9 "// &
+              "foundation_pressure='radial_mean' / "// &
+              '&shaft_contact roughness=0.5e-6 pressure=10.0e6 / '// &
+              "&sweep parameter='axial_load' values=150.0, 170.0, 190.0 / "// &
+              "&sensitivity quantity='axial_gap' parameters='ramp%height', 'gas%viscosity' "// &
+              "tolerances=1.0e-6, 2.0e-7 / &accuracy quantity='axial_gap' /"
     case ('strip')
       words = words//bumps(10)//"width=38.1e-3 fixed_edge='leading' / "// &
               '&contact friction_sleeve=0.1 / '// &

@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification
 from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 
 ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics", "load_capacity", "lift_off",
-            "misalignment_allowance", "transient", "periodic")
+            "misalignment_allowance", "transient", "periodic", "thrust")
 SECONDS = 120
 
 
@@ -36,7 +36,8 @@ def check_templates(checks, folder):
     offered = []
     for analysis in ANALYSES:
         status, text, wrong = call("--template", analysis, folder=folder)
-        checks.that(f"--template {analysis}", status == 0 and not wrong and f"analysis = '{analysis}'" in text)
+        checks.that(f"--template {analysis}", status == 0 and not wrong and
+                    ("kind = 'thrust'" if analysis == "thrust" else f"analysis = '{analysis}'") in text)
         checks.that(f"{analysis}: lines that a screen has", max(map(len, text.splitlines())) <= 120)
         (folder/f"{analysis}.nml").write_text(text, encoding="utf-8")
         status, _, wrong = call("--strict", "--output", "there", f"{analysis}.nml", folder=folder)
