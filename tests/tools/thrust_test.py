@@ -14,7 +14,7 @@ sys.path.insert(0, str(pathlib.Path(os.environ["GFB_SOURCE"])/"tools"))
 
 from gfb import coefficients  # noqa: E402 (found only now)
 from gfb.bench import thrust  # noqa: E402
-from gfb.plot import dynamics, ring  # noqa: E402
+from gfb.plot import dynamics, foil, main, ring  # noqa: E402
 
 STATIONS, ROWS = 5, 3
 STIFFNESS = numpy.array([[[4.0e7, 0.0, 0.0], [0.0, 3.0e4, 3.0e3], [0.0, -3.0e3, 3.0e4]], [[5.0e7, 0.0, 0.0], [0.0, 4.0e4, 2.0e3], [0.0, -2.0e3, 4.0e4]]])
@@ -39,6 +39,20 @@ def case_file(path):
     with h5py.File(path, "w") as file:
         for name, value in {"frequency": [100.0, 200.0], "stiffness": STIFFNESS, "damping": 1.0e-4*STIFFNESS}.items():
             file[f"dynamics/{name}"] = value
+
+
+def foil_file(path):
+    """The top foil of a pad of 60 degrees: it sinks from its leading edge on and touches one crest, but for the inner end."""
+    angle = numpy.repeat(numpy.radians(numpy.linspace(0.0, 60.0, STATIONS)), ROWS)
+    radius = numpy.tile([0.02, 0.03, 0.04], STATIONS)
+    touches = numpy.zeros((STATIONS, ROWS))
+    touches[2, 1:] = 1.0
+    corner = numpy.arange(STATIONS*ROWS).reshape(STATIONS, ROWS)[:-1, :-1].ravel()
+    with h5py.File(path, "w") as file:
+        file["VTKHDF/Points"] = numpy.column_stack([radius*numpy.cos(angle), radius*numpy.sin(angle), 0.0*angle])
+        file["VTKHDF/Connectivity"] = numpy.column_stack([corner, corner + 1, corner + ROWS + 1, corner + ROWS]).ravel()
+        file["VTKHDF/PointData/displacement"] = numpy.column_stack([0.0*angle, 0.0*angle, -5.0e-6*angle/angle[-1]])
+        file["VTKHDF/PointData/contact_state"] = touches.ravel()
 
 
 class Run(dict):
@@ -67,6 +81,22 @@ class ThrustTest(unittest.TestCase):
         numpy.testing.assert_allclose(edges[0][:, 0], [20.0, 30.0, 40.0])
         numpy.testing.assert_allclose(edges[1][:, 0], [-20.0, -30.0, -40.0])
         self.assertIn("thinnest\n10 um", [text.get_text() for text in charts[1].texts])
+
+    def test_a_top_foil_is_drawn_in_its_plane_and_in_space(self):
+        path = pathlib.Path(self.folder)/"two.top_foil_1.vtkhdf"
+        foil_file(path)
+        with h5py.File(path) as file:
+            self.assertTrue(ring.is_ring(file))
+            self.assertEqual(foil.shape_of(path, file), (STATIONS, ROWS, 3))
+            figure = main.draw_foil(path, file, [])
+        chart, space = figure.axes[:2]
+        self.assertEqual(chart.get_title(), "deflection away from the runner [um]; dashed: crests that push")
+        edge, crest = (line.get_xydata() for line in chart.get_lines() if len(line.get_xydata()) == ROWS)
+        numpy.testing.assert_allclose(edge, [[20.0, 0.0], [30.0, 0.0], [40.0, 0.0]])
+        numpy.testing.assert_allclose(numpy.hypot(*crest.T), [numpy.nan, 30.0, 40.0])
+        numpy.testing.assert_allclose(numpy.degrees(numpy.arctan2(crest[1:, 1], crest[1:, 0])), 30.0)
+        self.assertEqual(space.get_title(), "displacements x 1000, the runner is above")  # 5 um on a side of 35 mm: 5 mm
+        self.assertAlmostEqual(space.get_zlim()[0], -5.0, delta=0.3)
 
     def test_a_runner_gives_axial_coefficients_to_rotor_codes(self):
         path = pathlib.Path(self.folder)/"runner.h5"

@@ -36,13 +36,8 @@ def draw(path, file, columns):
     unknown = [name for name in columns if name not in there]
     if unknown:
         stop(f"{path}: no field {', '.join(unknown)}; there are: {', '.join(there)}")
-    points = file["VTKHDF/Points"][...]
-    cells = file["VTKHDF/Connectivity"][...].reshape(-1, 4)
-    rows = int(cells[0].max() - cells[0].min() - 1)  # a cell joins neighbours of two stations
-    if len(points) % rows:
-        stop(f"{path}: not a foil of stations and rows")
-    shape = (len(points)//rows, rows, 3)
-    points = points.reshape(shape)
+    shape = shape_of(path, file)
+    points = file["VTKHDF/Points"][...].reshape(shape)
     fields = {name: file[f"VTKHDF/PointData/{name}"][...].reshape(shape) for name in columns or there[:1]}
     scene = scene_of(path)
     if list(fields) == ["displacement"]:
@@ -53,6 +48,15 @@ def draw(path, file, columns):
     what = path.name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
     figure.suptitle(f"{scene.title(path)}: {what}", fontsize=11)
     return figure
+
+
+def shape_of(path, file):
+    """(stations, rows, 3) of a foil's points."""
+    cells = file["VTKHDF/Connectivity"][...].reshape(-1, 4)
+    rows, many = int(cells[0].max() - cells[0].min() - 1), len(file["VTKHDF/Points"])  # a cell joins neighbours of two stations
+    if many % rows:
+        stop(f"{path}: not a foil of stations and rows")
+    return many//rows, rows, 3
 
 
 def round_scale(value):

@@ -5,7 +5,8 @@
       --show polar                        pressure and gap around the shaft, with load, pad edges and thinnest film
       --show heat                         of &thermal: temperatures of film and top foil, heat into the shaft
   tools/plot CASE.bump_foil.vtkhdf      the bumps' deflected midline and their crests' deflections
-  tools/plot CASE.top_foil.vtkhdf       map of a bearing's top foil, and lines along midplane and edges
+  tools/plot CASE.top_foil.vtkhdf       map of a bearing's top foil, and lines along midplane and edges; of a thrust bearing's
+                                        CASE.top_foil_1.vtkhdf a map in its plane, and its shape
   tools/plot CASE.bump_foil.vtkhdf MODE ...   shapes of modes, such as mode_1 (also of the top foil)
   tools/plot CASE.h5 [COLUMN ...]       columns of the history against what the sweep changes, or load steps;
                                         of one point alone a table
@@ -178,7 +179,7 @@ def draw(options, paths, files):
     if of_strips or (not options.columns and strip.is_strip(file)):
         return strip.draw(paths, files, options.show, options.step)
     if foil.is_foil(file):
-        return foil.draw(path, file, options.columns)
+        return draw_foil(path, file, options.columns)
     if "VTKHDF" in file:
         if options.columns:
             stop(f"{path}: columns are of a history; name a CASE.h5")
@@ -191,6 +192,11 @@ def draw(options, paths, files):
 def drawing_of(file):
     """What draws a film: of sectors in their plane, else unrolled."""
     return ring.draw_ring if ring.is_ring(file) else draw_film
+
+
+def draw_foil(path, file, columns):
+    """A foil's picture: of a sector in its plane, else unrolled."""
+    return ring.draw_foil(path, file) if ring.is_ring(file) and not columns else foil.draw(path, file, columns)
 
 
 def draw_step(options, path, file):
@@ -206,7 +212,7 @@ def draw_step(options, path, file):
         if options.show and foil.is_foil(one):
             stop(f"{path}: a foil; --show {options.show} is of CASE.film.vtkhdf")
         if foil.is_foil(one):
-            figure = foil.draw(steps.alone(path), one, [])
+            figure = draw_foil(steps.alone(path), one, [])
         else:
             figure = OF_FILMS.get(options.show, drawing_of(one))(steps.alone(path), one)
     finally:

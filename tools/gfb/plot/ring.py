@@ -1,16 +1,20 @@
-"""Films of thrust bearings: their fields on the sectors, as they lie in the plane across the axis."""
+"""Films and top foils of thrust bearings: their fields on the sectors, as they lie in the plane across the axis."""
 
 import numpy
 from matplotlib import pyplot
 
 from gfb.plot.film import BANDS, FIELDS, ROUND_OFF, SIGNED, WORDS, around_zero, readable
+from gfb.plot.foil import round_scale, shape_of
 from gfb.plot.scene import round_numbers, scene_of
+
+TRAVEL = 0.15  # of a pad's longer side: how far the picture moves the node that moves most, at most
+FLATTEST = 0.25  # of a box over its longest side
 
 
 def is_ring(file):
-    """Whether an open film file is one of sectors in a plane across the axis."""
+    """Whether an open film or foil file is one of sectors in a plane across the axis."""
     points = file["VTKHDF/Points"]
-    return bool(numpy.ptp(points[:, 1]) > 0.0)
+    return bool(numpy.ptp(points[:, 1]) > 0.0 and not numpy.ptp(points[:, 2]) > 0.0)
 
 
 def sectors_of(file):
@@ -20,6 +24,13 @@ def sectors_of(file):
     pad = fields["pad"][...] if "pad" in fields else numpy.ones(len(theta))
     rows = int(numpy.argmax(numpy.abs(theta - theta[0]) > ROUND_OFF))
     return [numpy.flatnonzero(pad == number).reshape(-1, rows) for number in numpy.unique(pad)]
+
+
+def draw_outline(chart, points):
+    """The edges of a sector, the leading one black."""
+    edges = numpy.concatenate([points[0, :], points[:, -1], points[-1, ::-1], points[::-1, 0]])
+    chart.plot(edges[:, 0], edges[:, 1], color="0.4", linewidth=0.6)
+    chart.plot(points[0, :, 0], points[0, :, 1], color="k", linewidth=1.4)
 
 
 def draw_ring(path, file):
@@ -34,9 +45,7 @@ def draw_ring(path, file):
         look = around_zero(values) if name in SIGNED else {}
         for nodes in sectors:
             drawn = chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, **look)
-            outline = numpy.concatenate([nodes[0, :], nodes[:, -1], nodes[-1, ::-1], nodes[::-1, 0]])
-            chart.plot(points[outline, 0], points[outline, 1], color="0.4", linewidth=0.6)
-            chart.plot(points[nodes[0], 0], points[nodes[0], 1], color="k", linewidth=1.4)
+            draw_outline(chart, points[nodes])
         if name == "gap":
             thinnest = int(numpy.argmin(values))
             chart.plot(points[thinnest, 0], points[thinnest, 1], "o", color="w", markeredgecolor="k", markersize=6.0, zorder=5)
@@ -49,3 +58,49 @@ def draw_ring(path, file):
         chart.set_ylabel("y [mm]")
     figure.suptitle(scene_of(path).title(path) + "\nthe runner turns from x to y; leading edges are black", fontsize=10)
     return figure
+
+
+def draw_foil(path, file):
+    """A pad's top foil: how far it is away from where it rests, with the crests that it touches, and its shape in space."""
+    shape = shape_of(path, file)
+    fields, points = file["VTKHDF/PointData"], 1.0e3*file["VTKHDF/Points"][...].reshape(shape)
+    moved = fields["displacement"][...].reshape(shape)[:, :, 2]
+    away = -1.0e6*moved
+    bands = round_numbers(BANDS).tick_values(away.min(), away.max()) if numpy.ptp(away) > 0.0 else BANDS
+    figure = pyplot.figure(figsize=(11.0, 5.2), layout="constrained")
+    chart, space = figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2, projection="3d")
+    drawn = chart.contourf(points[:, :, 0], points[:, :, 1], away, levels=bands, **around_zero(away))
+    draw_outline(chart, points)
+    words = "deflection away from the runner [um]"
+    if "contact_state" in fields:
+        words += "; dashed: crests that push"
+        touches = fields["contact_state"][...].reshape(shape[:2]) > 0.0
+        for station in numpy.flatnonzero(touches.any(axis=1)):
+            x, y = (numpy.where(touches[station], points[station, :, axis], numpy.nan) for axis in (0, 1))
+            chart.plot(x, y, color="0.3", linewidth=0.8, linestyle="--")
+    chart.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
+    chart.set_title(words, fontsize=10)
+    draw_in_space(space, points, moved, drawn)
+    figure.colorbar(drawn, ax=[chart, space], location="bottom", shrink=0.5, ticks=round_numbers(6), spacing="proportional")
+    what = path.name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
+    figure.suptitle(f"{scene_of(path).title(path)}: {what}\nthe runner turns from x to y; the leading edge is black", fontsize=10)
+    return figure
+
+
+def draw_in_space(chart, points, moved, colours):
+    """The deflected foil, the runner above it; along the axis it is moved further than it moves."""
+    largest, side = 1.0e3*float(numpy.abs(moved).max()), float(numpy.ptp(points[:, :, :2], axis=(0, 1)).max())
+    scale = round_scale(TRAVEL*side/largest) if largest > 0.0 else 1.0
+    x, y, z = points[:, :, 0], points[:, :, 1], 1.0e3*scale*moved
+    values = -1.0e6*moved
+    inside = 0.25*(values[1:, 1:] + values[:-1, 1:] + values[1:, :-1] + values[:-1, :-1])
+    chart.plot_surface(x, y, z, facecolors=colours.to_rgba(inside), rstride=1, cstride=1, linewidth=0.0, antialiased=False, shade=False)
+    chart.plot(x[0], y[0], z[0], color="k", linewidth=1.4)
+    chart.set(xlabel="x [mm]", ylabel="y [mm]", zticks=[])
+    chart.set_title(f"displacements x {scale:g}, the runner is above", fontsize=10)
+    sides = numpy.array([numpy.ptp(x), numpy.ptp(y), numpy.ptp(z)])
+    chart.set_box_aspect(numpy.maximum(sides, FLATTEST*sides.max()), zoom=1.2)
+    for axis in (chart.xaxis, chart.yaxis):
+        axis.set_major_locator(round_numbers(4))
+    # Across the pad, from its outer radius and behind its trailing edge.
+    chart.view_init(elev=32.0, azim=numpy.degrees(numpy.arctan2(y[-1, -1], x[-1, -1])) + 15.0)

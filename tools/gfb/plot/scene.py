@@ -10,7 +10,7 @@ from gfb import steps
 from gfb.plot.strip import used_keys
 from gfb.results import BROKEN, open_results
 
-MODELS = {"rigid": "rigid", "elastic_foundation": "elastic foundation", "beam": "beams", "shell": "shells"}
+MODELS = {"rigid": "rigid", "elastic_foundation": "elastic foundation", "beam": "beams", "shell": "shells", "plate": "plate on crests"}
 WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle": "angle of the load", "minimum_gap": "thinnest film",
          "minimum_gap_midplane": "thinnest film, midplane", "minimum_gap_edge": "thinnest film, edges", "eccentricity_x": "e_x",
          "eccentricity_y": "e_y", "torque_x": "torque about x", "torque_y": "torque about y", "force_x": "force along x",

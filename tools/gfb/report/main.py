@@ -25,7 +25,7 @@ from gfb.tool import draw_into_files, stop
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
 ENDINGS = (".h5", ".summary")
-SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
+SURFACES = {"film": "the film", "top_foil": "the top foil", "top_foil_1": "the top foil of pad 1", "bump_foil": "the bump foil"}
 SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency"}
 SECONDS = 300     # no picture takes that long
 MOST_ROWS = 400   # of a table of points
