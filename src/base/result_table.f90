@@ -172,7 +172,8 @@ module gfb_result_table
     result_type('pads_solved', '1', total, bearing, 'others are the same, turned'), &
     result_type('lifted_length', '1', number, bearing, &
       'crest length without contact over all of it', &
-      'foils of shells or beams: crest length without contact, over all of it', compared=.true.), &
+      'foils of shells, beams or plates: crest length without contact, over all of it', &
+      compared=.true.), &
     result_type('solid_contact_force_<a>', 'N', number, bearing, &
       'share of force_<a> that the solid contact carries', &
       'with `&shaft_contact`: share of `force_x`, `force_y` that the asperities carry'), &

@@ -37,6 +37,9 @@ contains
                    .not. keys%meant('model', 'crest_stiffness'), "'plate' needs "// &
                    'crest_stiffness, or what is missing in &bump_foil: '// &
                    join(pack(needed, missing), ', '))
+    call keys%refuse('model', 'foundation_stiffness, foundation_exponent, '// &
+                     'foundation_pressure', .true., "has no use with foil = 'plate': "// &
+                     'crest_stiffness stands for it')
     placed = keys%meant(bumps, angles)
     call keys%rule('model', 'foil', missing(5) .and. .not. placed, "'plate' needs crests: "// &
                    'pitch or crest_angles in &bump_foil')

@@ -3,7 +3,8 @@
 and steps, each with the error it states.
 
 gfb's orbits have the error of N equal steps a turn, which begins with N^-2, and that of biquadratic elements of the size h, which
-begins with h^4. Both are taken away by polynomials: over the steps on each mesh, and over four meshes (--long, with the names of the orbits). The finer two were
+begins with h^4. Both are taken away by polynomials: over the steps on each mesh, and over three or four meshes (--long, with the names
+of the orbits). The finer two were
 solved in few steps only: there the change from the next coarser mesh is extrapolated over these.
 """
 

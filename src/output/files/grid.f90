@@ -40,6 +40,8 @@ module gfb_grid
   end type result_grid_type
 
   character(len=*), parameter :: group = grid_group
+  character(len=*), parameter, public :: point_meaning = 'unrolled: x along the motion, '// &
+    'y towards the shaft, z along the axis; of thrust bearings x, y, z in space'
 
 contains
 
@@ -154,7 +156,7 @@ contains
     call put_count(file, 'NumberOfConnectivityIds', corners*grid%cells, 'entries of Connectivity')
     call block_bounds(grid%points, rank, ranks, first, last)
     call file%put_block(group//'/Points', grid%point, first - 1, grid%points, 'm', &
-                        'unrolled: x along the motion, y towards the shaft, z along the axis')
+                        point_meaning)
     call block_bounds(grid%cells, rank, ranks, first, last)
     call file%put_long_block(group//'/Connectivity', &
                              int(reshape(grid%cell, [size(grid%cell)]) - 1, long), &

@@ -11,7 +11,7 @@
 module gfb_grid_series
   use, intrinsic :: iso_c_binding, only: c_int8_t, c_f_pointer, c_loc
   use gfb_errors, only: error_type
-  use gfb_grid, only: grid_group, corners, vtk_quad, grid_type, grid_field_type, &
+  use gfb_grid, only: grid_group, point_meaning, corners, vtk_quad, grid_type, grid_field_type, &
                       result_grid_type, block_bounds
   use gfb_kinds, only: wp, long
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file, gather_parts
@@ -99,7 +99,7 @@ contains
       call put_list(file, 'NumberOfConnectivityIds', int(corners*cells, long), &
                     'entries of Connectivity for each grid')
       call put_columns(file, grid_group//'/Points', surface%point, 'm', &
-                       'unrolled: x along the motion, y towards the shaft, z along the axis')
+                       point_meaning)
       call put_list(file, 'Connectivity', &
                     int(reshape(surface%cell%number(:, :sum(cells)), [corners*sum(cells)]), &
                         long) - 1_long, 'points of the cells, from 0')
