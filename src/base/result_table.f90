@@ -350,6 +350,10 @@ module gfb_result_table
     result_type('damping_ratio', '1', number, bearing, &
       'damping of that mode over critical damping; negative: it grows', &
       'the same: damping of that mode over critical damping; negative: it grows'), &
+    result_type('axial_frequency', 'rad/s', number, bearing, &
+      'circular frequency of the rotor''s mode along its axis', &
+      'with `&rotor` on a thrust bearing: circular frequency of its mode along the axis, whose '// &
+      'growth and damping `growth_rate` and `damping_ratio` are'), &
     result_type('largest_growth_rate', '1/s', number, bearing, &
       'growth of the least damped mode of any kind, of rotor, foil or film', &
       'with `&rotor`: growth of the least damped mode of any kind, of rotor, foil or film'), &

@@ -167,6 +167,16 @@ def check_differences(checks, folder):
             checks.below(f"{quantity} by {key} against differences", found/rate - 1.0, 1.0e-5)
 
 
+def check_rotor(checks, folder):
+    """A heavy rotor moves along its axis as stiffness and damping at its frequency say."""
+    held = {"axial_gap": 9.0e-6}
+    mass = 800.0
+    found = solve(folder, "rotor", thrust(held, "linear_dynamics", SPRINGS, dynamics={"frequency_ratios": 0.02}, rotor={"mass": mass}, **TIGHT))
+    there = solve(folder, "there", thrust(held, "linear_dynamics", SPRINGS, dynamics={"frequencies": found["axial_frequency"]}, **TIGHT))
+    checks.below("a heavy rotor: frequency", found["axial_frequency"]/math.sqrt(there["stiffness_zz"]/mass) - 1.0, 1.0e-4)
+    checks.below("a heavy rotor: growth", found["growth_rate"]/(-0.5*there["damping_zz"]/mass) - 1.0, 1.0e-3)
+
+
 def check_strips(checks, folder):
     """Strips of one stiffness are the foundation without strips; a stiffer inner strip holds the inner edge."""
     strips = {"foil": "elastic_foundation", "cut_radii": (0.033, 0.042)}
@@ -207,6 +217,7 @@ def main():
             check_order(checks, folder)
             check_one_pad(checks, folder)
             check_differences(checks, folder)
+            check_rotor(checks, folder)
             check_strips(checks, folder)
             check_limits(checks, folder)
             check_ranks(checks, folder)

@@ -158,11 +158,11 @@ contains
     type(rotor_case_type), intent(out) :: rotor !! what `&rotor` says
     logical, intent(in) :: thrust !! the pads are sectors of a ring
     integer, intent(in) :: analysis !! of the case file, 0 where it is not known
-    character(len=:), allocatable :: misplaced
+    character(len=:), allocatable :: misplaced, along
 
+    along = unless(.not. thrust, needs_journal//': the rotor moves along its axis')
     misplaced = misplaced_group(analysis, any(analysis == &
                 [analysis_linear_dynamics, analysis_transient, analysis_periodic]))
-    if (misplaced == '') misplaced = unless(.not. thrust, needs_journal)
     call keys%start_group(group, optional=.true., present_in_file=rotor%present, &
                           misplaced=misplaced)
     call keys%real_key(mass, rotor%mass, 'kg', &
@@ -171,12 +171,13 @@ contains
     call keys%real_key(transverse, rotor%transverse_inertia, 'kg m^2', &
                        'moment of inertia of the whole rotor about an axis across it through '// &
                        'its centre of mass, which is halfway between two equal bearings', &
-                       positive, default=no_default)
+                       positive, default=no_default, useless=along)
     call keys%real_key(polar, rotor%polar_inertia, 'kg m^2', &
-                       'moment of inertia of the whole rotor about its own axis', not_negative)
+                       'moment of inertia of the whole rotor about its own axis', not_negative, &
+                       useless=along)
     call keys%real_key(distance, rotor%bearing_distance, 'm', &
                        'distance of the two bearings, from midplane to midplane', positive, &
-                       default=no_default)
+                       default=no_default, useless=along)
     if (analysis == analysis_transient) rotor%distance_in_time = rotor%bearing_distance
   end subroutine read_rotor_case
 

@@ -51,7 +51,7 @@ module gfb_rotor_modes
   use gfb_vibration_equations, only: vibration_type
   implicit none (type, external)
   private
-  public :: find_determinant, solve_mode, find_rotor_modes, find_all_modes, is_of_shaft, is_of_foil
+  public :: find_determinant, solve_mode, find_rotor_modes, find_axial_mode, find_all_modes, is_of_shaft, is_of_foil
 
   integer, parameter :: first_steps = 16 !! of the half circle
   !> Of the phase; five times as much would not be seen.
@@ -490,4 +490,58 @@ contains
       mode(k + 1) = one
     end do
   end subroutine sort_modes
+
+  !> A rotor's mode along its axis on a thrust bearing, next to that of the stiffness at a frequency: a zero of
+  !>
+  !> $$ m \lambda^2 + Z_{zz}(\lambda) $$
+  !>
+  !> with the coefficient at the complex rate, since film and foil answer the mode as it decays; without a loss factor.
+  subroutine find_axial_mode(bearing, response, mass, frequency, rate, found)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it, a runner's
+    real(wp), intent(in) :: mass      !! that the bearing carries [kg]
+    real(wp), intent(in) :: frequency !! near which it is looked for [rad/s]
+    complex(wp), intent(out) :: rate  !! growth + i frequency [1/s]
+    logical, intent(out) :: found     !! it has converged
+    complex(wp) :: before, here, at_before, at_here, stiffness, move
+    integer :: trial
+
+    call axial_coefficient(cmplx(0.0_wp, frequency, wp), stiffness, found)
+    rate = cmplx(0.0_wp, sqrt(max(real(stiffness, wp), tiny(1.0_wp))/mass), wp)
+    if (.not. found) return
+    before = rate
+    call axial_coefficient(before, stiffness, found)
+    if (.not. found) return
+    at_before = mass*before**2 + stiffness
+    ! What the damping makes of it is the first move.
+    here = before - at_before/(2.0_wp*mass*before)
+    if (abs(here - before) < first_move*abs(before)) here = (1.0_wp + first_move)*before
+    do trial = 1, most_trials
+      call axial_coefficient(here, stiffness, found)
+      if (.not. found) return
+      at_here = mass*here**2 + stiffness
+      found = .not. abs(at_here - at_before) <= 0.0_wp
+      if (.not. found) exit
+      move = -at_here*(here - before)/(at_here - at_before)
+      before = here
+      at_before = at_here
+      here = here + move
+      found = abs(move) <= rounded*abs(here)
+      if (found) exit
+    end do
+    rate = cmplx(real(here, wp), abs(aimag(here)), wp)
+
+  contains
+
+    !> Z of the motion along the axis.
+    subroutine axial_coefficient(at, value, made)
+      complex(wp), intent(in) :: at     !! [1/s]
+      complex(wp), intent(out) :: value !! [N/m]
+      logical, intent(out) :: made
+      complex(wp) :: coefficient(size(response%motion), size(response%motion))
+
+      call find_coefficients(bearing, response, at, coefficient, made)
+      value = coefficient(1, 1)
+    end subroutine axial_coefficient
+  end subroutine find_axial_mode
 end module gfb_rotor_modes

@@ -25,7 +25,7 @@ module gfb_dynamics
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type, conical
-  use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes, rotor_mode_type, is_of_shaft, is_of_foil
+  use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes, find_axial_mode, rotor_mode_type, is_of_shaft, is_of_foil
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of, mode_numbers, &
                                  motion_names
   implicit none (type, external)
@@ -85,6 +85,9 @@ contains
     if (.not. allocated(record%problem) .and. scene%dynamics%stability .and. bearing%point%speed > 0.0_wp) then
       call add_whirl(log, bearing, response, model, found, record%problem)
       if (scene%rotor%present .and. .not. allocated(record%problem)) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
+    end if
+    if (.not. allocated(record%problem) .and. scene%bearing%is_thrust() .and. scene%rotor%present) then
+      call add_axial_mode(scene, log, bearing, response, point%frequency(1), found)
     end if
     record%point = [record%point, point]
     if (response%enlargements > 0) call show_enlargements(log, response%enlargements)
@@ -414,6 +417,33 @@ contains
       problem = 'the search for the critical mass: '//response_failure(response)
     end if
   end subroutine add_whirl
+
+  !> Looks for the rotor's mode along its axis.
+  subroutine add_axial_mode(scene, log, bearing, response, frequency, found)
+    type(scene_type), intent(in) :: scene !! of a thrust bearing with a rotor
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    real(wp), intent(in) :: frequency !! of the table, where the search begins [rad/s]
+    type(quantity_type), allocatable, intent(inout) :: found(:)
+    type(rotor_mode_type) :: mode
+    logical :: is_found
+
+    if (scene%dynamics%loss_factor > 0.0_wp) then
+      call log%line('axial mode: none, for a loss factor is defined for steady vibrations alone')
+      return
+    end if
+    call find_axial_mode(bearing, response, scene%rotor%mass, frequency, mode%rate, is_found)
+    if (.not. is_found) then
+      call log%line('axial mode: not found')
+      return
+    end if
+    call log%line('axial mode of '//text(scene%rotor%mass, digits)//' kg: '//text(aimag(mode%rate), mode_digits)//' rad/s, changes as exp('// &
+                  text(real(mode%rate, wp), mode_digits)//' t), damping ratio '//text(damping_ratio(mode), mode_digits))
+    call add_result(found, 'axial_frequency', aimag(mode%rate))
+    call add_result(found, 'growth_rate', real(mode%rate, wp))
+    call add_result(found, 'damping_ratio', damping_ratio(mode))
+  end subroutine add_axial_mode
 
   !> Says how the rotor moves.
   subroutine show_rotor(log, speed, briefly, known, mass, answer)
