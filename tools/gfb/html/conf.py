@@ -25,7 +25,7 @@ html_copy_source = False
 html_show_sourcelink = False
 
 WAY = {
-    "Tutorials": ["README", "first_steps", "first_bearing", "data_sheet", "first_sweep", "misaligned_shaft", "first_strip", "python"],
+    "Tutorials": ["README", "first_steps", "first_bearing", "first_thrust_bearing", "data_sheet", "first_sweep", "misaligned_shaft", "first_strip", "python"],
     "How to": ["model_and_mesh", "accuracy", "bearing_mesh", "bearing", "strip", "sweeps", "branches", "pads", "gas_and_bore", "heat", "dynamics", "ensembles", "cluster", "linear_solvers",
                "restart", "no_answer", "failures", "*"],
     "Reference": ["keys", "results", "CHANGELOG", "references"],
