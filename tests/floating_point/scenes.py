@@ -39,6 +39,11 @@ ROTOR = merged(SPRINGS, operation={"load": (-60.0, 0.0)}, rotor={"mass": 1.5}, m
 HEAVY = merged(SHELL, model={"foil": "beam"}, top_foil={"density": 8440.0}, bump_foil={"density": 8440.0},
                operation={"speed_rpm": 60000.0}, rotor={"mass": 0.1})
 FREQUENCIES = {"frequency_ratios": (0.5, 1.0)}
+PADS = {"scene": BALANCED, "bearing": {"kind": "thrust", "outer_radius": 0.05, "inner_radius": 0.025}, "pads": {"count": 3, "arc": 0.8},
+        "ramp": {"part": 0.3, "height": 2.0e-5}, "gas": {"viscosity": 1.85e-5, "ambient_pressure": 101325.0},
+        "operation": {"speed_rpm": 40000.0, "axial_load": 60.0}, "model": {"foil": "plate", "crest_stiffness": 3.0e7},
+        "top_foil": {"thickness": 1.5e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29},
+        "bump_foil": {"pitch": 5.0e-3, "half_length": 1.5e-3}, "mesh": {"circumferential_elements": 12, "radial_elements": 4}}
 
 # Why answers differ, and how far they may.
 FILM, FOILS, SLOPES, REBUILT, MODES, PATH, FOLDS = "film", "foils", "slopes", "rebuilt", "modes", "path", "folds"
@@ -162,6 +167,11 @@ SCENES = [
           FOILS, memory=True),
     Scene("springs, sensitivities", merged(SPRINGS, operation=LOAD, mesh=COARSE, sensitivity={
         "quantity": ("eccentricity_x", "friction_torque"), "parameters": ("gas%viscosity", "bearing%clearance")}), SLOPES, memory=True),
+    Scene("thrust bearing, plates under a moment", merged(PADS, operation={"moment": (0.05, 0.02)}), FOILS, ranks=(1, 4), memory=True),
+    Scene("thrust bearing, plates at points, small vibrations", merged(PADS, scene={"analysis": "linear_dynamics"}, model={
+        "spring_pitch": 3.0e-3, "crest_springs": "two_sided"}, rotor={"mass": 3.0}, dynamics=FREQUENCIES), FOILS),
+    Scene("plate under a journal", merged({name: keys for name, keys in SHELL.items() if name != "contact"}, model={
+        "foil": "plate"}, operation={"load": (-1.5, 0.2)}, mesh={"arc_elements": None, "align_crests": None}), FOILS, ranks=(1, 2)),
     Scene("shells, sensitivities", merged(SHELL, sensitivity={
         "quantity": ("eccentricity_x", "minimum_gap"), "parameters": ("top_foil%thickness", "bump_foil%height")}), REBUILT, memory=True),
 ]

@@ -13,7 +13,8 @@ from scenes import SCENES  # noqa: E402
 
 FEW = ("rigid, under a load", "rigid, film order 2", "springs, sweep of speed", "springs, film and foil in turns", "beams, 100 N",
        "strip between plates, loop", "modes of an arc", "springs, load capacity", "beams, two pads, small vibrations",
-       "beams with their mass, rotor over time", "springs, forced orbits", "beams, sample", "springs, sensitivities")
+       "beams with their mass, rotor over time", "springs, forced orbits", "beams, sample", "springs, sensitivities",
+       "thrust bearing, plates under a moment")
 SECONDS = 400
 WRONG = ("AddressSanitizer", "runtime error:", "ERROR: ")
 
