@@ -113,7 +113,7 @@ contains
     call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
                           'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
                           default='8 a pitch with bumps, otherwise 240, of a thrust '// &
-                          'bearing 64; half of it with '// &
+                          'bearing 64 or more; half of it with '// &
                           '`film_order = 2`', given=given)
     call keys%rule('bump_foil', 'pitch', .not. given .and. &
                    mesh%circumferential_elements > most_a_side, '8 elements a pitch would be '// &
@@ -184,5 +184,8 @@ contains
       return
     end if
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
+    if (bearing%is_thrust() .and. model%foil == foil_plate) then
+      elements = max(elements, elements_of_sector)
+    end if
   end function elements_along_pad
 end module gfb_mesh_case
