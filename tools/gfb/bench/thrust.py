@@ -1,8 +1,8 @@
-"""Thrust bearings: error against time on several meshes, rigid and on springs, and what more pads and a tilt cost.
+"""Thrust bearings: error against time on several meshes, rigid, on springs and plates, and what more pads and a tilt cost.
 
-The bearing of inputs/thrust_foundation.nml: a rigid one whose gap is held, one on local springs and one on springs under the mean along
-the radius, both under 200 N. Errors are those of axial force, or axial gap, and of the axial stiffness against a mesh of twice
-the elements each way of the finest. CPU times are those of whole runs less the start of MPI, medians of the rounds.
+The bearing of inputs/thrust_foundation.nml: a rigid one whose gap is held, one on local springs, one on springs under the mean along
+the radius, and one on plates, under 200 N. Errors are those of axial force, or axial gap, and of the axial stiffness against a mesh of
+twice the elements each way of the finest. CPU times are those of whole runs less the start of MPI, medians of the rounds.
 """
 
 import statistics
@@ -18,7 +18,10 @@ MESHES = ((32, 16, 1), (64, 32, 1), (128, 64, 1), (16, 8, 2), (32, 16, 2), (64, 
 FINEST = (128, 64, 2)
 SCENES = {"rigid, held": ({"foil": "rigid"}, {"axial_gap": 1.0e-5}, "axial_force"),
           "local springs, 200 N": ({"foundation_pressure": "local"}, {"axial_load": 200.0}, "axial_gap"),
-          "radial mean, 200 N": ({"foundation_pressure": "radial_mean"}, {"axial_load": 200.0}, "axial_gap")}
+          "radial mean, 200 N": ({"foundation_pressure": "radial_mean"}, {"axial_load": 200.0}, "axial_gap"),
+          "plates, 200 N": ({"foil": "plate", "crest_stiffness": 4.0e7}, {"axial_load": 200.0}, "axial_gap")}
+PLATE = {"top_foil": {"thickness": 1.5e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29},
+         "bump_foil": {"crest_angles": tuple(0.7853981633974483*(number - 0.5)/8.0 for number in range(1, 9))}}
 HELD, LOADED, FINE = 7, 16, 5  # aims: factorizations of a held gap, of a load on springs, on the finest mesh
 SAME = 1.1  # aim: all aligned pads over one
 HEAD = """# Thrust bearings: error against time
@@ -89,7 +92,7 @@ def solve(gfb, folder, scene, mesh, count=6, tilt=None):
               "gas": {"viscosity": 1.85e-5, "ambient_pressure": 101325.0},
               "operation": {"speed_rpm": 40000.0} | load | ({"tilt": tilt} if tilt else {}), "dynamics": {"frequency_ratios": 0.25},
               "model": model | {"film_order": mesh[2]} | ({"film_scheme": "galerkin"} if mesh[2] == 1 else {}),
-              "mesh": {"circumferential_elements": mesh[0], "radial_elements": mesh[1]}}
+              "mesh": {"circumferential_elements": mesh[0], "radial_elements": mesh[1]}} | (PLATE if "crest_stiffness" in model else {})
     answer = run_file(gfb, write_case(folder, "thrust", groups), folder)
     if answer.status != 0:
         stop(f"{scene}: gfb ended with status {answer.status}:\n{answer.log}{answer.complaint}", 3)
