@@ -15,7 +15,7 @@ module gfb_crest_lines
   use gfb_strip_load_case, only: bump_stiffness
   implicit none (type, external)
   private
-  public :: crest_lines, plate_sides, crests_on_pad
+  public :: crest_lines, plate_sides
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
   !> of the radius in the stiffness of a line under a sector
@@ -73,7 +73,7 @@ contains
 
   !> Where crests of a strip stand, from the leading edge on [rad].
   pure function crests_on_pad(bearing, foil, radius) result(angle)
-    type(bearing_case_type), intent(in) :: bearing !! with its pads
+    type(bearing_case_type), intent(in) :: bearing
     type(bump_foil_case_type), intent(in) :: foil !! of one strip
     real(wp), intent(in) :: radius !! at which its pitch is measured [m]
     real(wp), allocatable :: angle(:)

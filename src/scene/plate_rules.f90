@@ -3,11 +3,11 @@ module gfb_plate_rules
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: pad_angle, leading_edge_periodic
   use gfb_case_keys, only: case_keys_type
-  use gfb_crest_lines, only: crests_on_pad
-  use gfb_foil_cases, only: bump_foil_case_type, one_strip
+  use gfb_crest_lines, only: crest_line_type, crest_lines
+  use gfb_foil_cases, only: bump_foil_case_type, missing_of_bumps, one_strip
   use gfb_model_case, only: foil_plate, needs_plate
   use gfb_scene, only: scene_type
-  use gfb_text, only: text, join
+  use gfb_text, only: text
   use gfb_units, only: degrees
   implicit none (type, external)
   private
@@ -22,26 +22,20 @@ contains
   subroutine check_plate(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), parameter :: needed(*) = [character(len=14) :: 'thickness', &
-      'youngs_modulus', 'poissons_ratio', 'half_length', 'pitch or bumps']
-    logical :: missing(size(needed)), placed
-    integer :: i
+    character(len=:), allocatable :: missing
+    logical :: pitched, placed
 
     call keys%refuse(bumps, angles, all(scene%model%foil /= [0, foil_plate]), needs_plate)
     if (scene%model%foil /= foil_plate) return
-    missing = [(.not. (keys%meant(bumps, trim(needed(i))) .or. keys%meant(bumps, 'strip_'// &
-                trim(needed(i)))), i=1, size(needed))]
-    missing(5) = .not. (keys%meant(bumps, 'pitch') .or. keys%meant(bumps, 'bumps') .or. &
-                        keys%meant(bumps, 'strip_pitch'))
-    call keys%rule('model', 'foil', any(missing) .and. &
+    missing = missing_of_bumps(keys, .true., pitched)
+    call keys%rule('model', 'foil', missing /= '' .and. &
                    .not. keys%meant('model', 'crest_stiffness'), "'plate' needs "// &
-                   'crest_stiffness, or what is missing in &bump_foil: '// &
-                   join(pack(needed, missing), ', '))
+                   'crest_stiffness, or what is missing in &bump_foil: '//missing)
     call keys%refuse('model', 'foundation_stiffness, foundation_exponent, '// &
                      'foundation_pressure', .true., "has no use with foil = 'plate': "// &
                      'crest_stiffness stands for it')
     placed = keys%meant(bumps, angles)
-    call keys%rule('model', 'foil', missing(5) .and. .not. placed, "'plate' needs crests: "// &
+    call keys%rule('model', 'foil', (.not. pitched) .and. .not. placed, "'plate' needs crests: "// &
                    'pitch or crest_angles in &bump_foil')
     call keys%rule(bumps, angles, placed .and. keys%meant(bumps, 'bumps'), 'cannot stand '// &
                    'beside bumps: give one of them')
@@ -54,9 +48,9 @@ contains
   subroutine check_lines(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    type(crest_line_type), allocatable :: lines(:)
     type(bump_foil_case_type) :: foil
-    real(wp), allocatable :: angle(:)
-    real(wp) :: radius, last
+    real(wp) :: last
     integer :: n, strip
 
     associate (bearing => scene%bearing, given => scene%bump_foil)
@@ -76,15 +70,14 @@ contains
       if (.not. given%pitch%value > 0.0_wp) return
       do strip = 1, given%strips
         foil = one_strip(given, strip)
-        radius = bearing%radius
-        if (bearing%is_thrust()) radius = bearing%inner_radius + bearing%length* &
-                                          (real(strip, wp) - 0.5_wp)/real(given%strips, wp)
-        angle = crests_on_pad(bearing, foil, radius)
-        if (size(angle) == 0) then
+        lines = crest_lines(scene)
+        lines = pack(lines, lines%strip == strip)
+        n = size(lines)
+        if (n == 0) then
           call keys%complain(bumps, 'pitch', 'leaves no room for a bump on the pad')
           return
         end if
-        last = angle(size(angle)) + foil%half_length%value/radius
+        last = lines(n)%angle + foil%half_length%value/lines(n)%mean_radius
         if (bearing%is_thrust() .and. last > pad_angle(bearing)*(1.0_wp + rounding)) then
           call keys%complain(bumps, 'bumps', text(foil%bumps)//' bumps of the pitch '// &
                              text(foil%pitch%value)//' m end at '//text(last*degrees, 4)// &

@@ -14,6 +14,7 @@ module gfb_scene_rules
                             foundation_pressure_local
   use gfb_motion_rules, only: check_dynamics, check_foil_mass, check_rotor, check_transient, &
                               check_periodic
+  use gfb_foil_cases, only: missing_of_bumps
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
@@ -232,20 +233,16 @@ contains
   subroutine check_model(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: needed(*) = [character(len=14) :: 'thickness', &
-      'youngs_modulus', 'poissons_ratio', 'half_length', 'pitch or bumps']
-    logical :: missing(size(needed)), half, bearing, iterative
-    integer :: i
+    character(len=:), allocatable :: missing
+    logical :: half, bearing, iterative, pitched
 
-    missing = [(.not. keys%meant('bump_foil', trim(needed(i))), i=1, size(needed))]
-    missing(5) = .not. (keys%meant('bump_foil', 'pitch') .or. keys%meant('bump_foil', 'bumps'))
+    missing = missing_of_bumps(keys, .false., pitched)
     associate (model => scene%model, solver => scene%solver, analysis => scene%general%analysis, &
                elements => scene%mesh%axial_elements)
-      call keys%rule('model', 'foil', model%foil == foil_elastic_foundation .and. any(missing) &
+      call keys%rule('model', 'foil', model%foil == foil_elastic_foundation .and. missing /= '' &
                      .and. .not. (keys%meant('model', 'foundation_stiffness') .or. &
                      model%has_strips()), 'needs '// &
-                     'foundation_stiffness, or what is missing in &bump_foil: '// &
-                     join(pack(needed, missing), ', '))
+                     'foundation_stiffness, or what is missing in &bump_foil: '//missing)
       half = model%half_width == half_width_yes
       call keys%rule('model', 'half_width', half .and. &
                      tilts(scene%operation, scene%sweep), 'needs a bearing without tilt')

@@ -10,7 +10,7 @@ module gfb_bearing_builder
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: solves_one_pad
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
-  use gfb_model_case, only: foil_shell, meshes_foils, reduction_guyan, foil_rigid, &
+  use gfb_model_case, only: foil_shell, meshes_foils, meshes_top_foil, reduction_guyan, foil_rigid, &
                             foil_elastic_foundation, foil_beam, foil_plate
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh
   use gfb_crest_lines, only: plate_sides
@@ -336,7 +336,6 @@ contains
                                 bearing%ramp_part*pad_angle(bearing), scene%model%cut_radii, plan%circumferential, plan%axial, &
                                 merge(1.0_wp, scene%mesh%edge_refinement, scene%model%foil == foil_plate), &
                                 scene%mesh%edge_refinement, plan%order)
-        if (scene%model%foil == foil_plate) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene))
         if (solves_one_pad(scene)) mesh%repeats = bearing%pads
       else if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
@@ -346,12 +345,11 @@ contains
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
                                  bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order, &
                                  scene%mesh%edge_refinement)
-        if (scene%model%foil == foil_plate) then
-          call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene))
-        else if (scene%bore%present .and. .not. meshes_foils(scene%model%foil)) then
+        if (scene%bore%present .and. .not. meshes_top_foil(scene%model%foil)) then
           call align_stations(mesh, bore_kinks(scene%bore%profile, pad_turn(bearing, [(i, i=1, bearing%pads)])))
         end if
       end if
+      if (scene%model%foil == foil_plate) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene))
     end associate
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
   end function film_mesh_of

@@ -11,18 +11,12 @@ module gfb_plate_foil
   use petscmat
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_quantity, only: quantity_type
-  use gfb_petsc_session, only: this_rank
-  use gfb_matrix_rows, only: copy_row
   use gfb_scene, only: scene_type
   use gfb_model_case, only: springs_two_sided
   use gfb_crest_lines, only: crest_line_type, crest_lines
   use gfb_film_mesh, only: film_mesh_type, find_film_place
-  use gfb_mesh_dm, only: local_mesh_type, columns_window
+  use gfb_mesh_dm, only: local_mesh_type
   use gfb_partition, only: division_type
-  use gfb_quad_mesh, only: quad_mesh_type, node_set
-  use gfb_foil_mesh, only: top_mesh
-  use gfb_substructures, only: substructure_type
   use gfb_shell_geometry, only: node_unknowns, shell_unknowns
   use gfb_shell_mass, only: shell_mass
   use gfb_condensed_piece, only: condensed_piece_type
@@ -31,12 +25,12 @@ module gfb_plate_foil
   use gfb_bump_contacts, only: bump_contact, contact_top
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure, element_geometry
-  use gfb_foil_assembly, only: create_foil_structure, element_unknowns
-  use gfb_foil_builder, only: find_symmetry_supports, plate_fixed_edge, plate_section
+  use gfb_foil_assembly, only: element_unknowns
+  use gfb_foil_builder, only: build_top
   use gfb_foil_places, only: place_unknowns, add_pressure, size_unknowns
   use gfb_foil_stress, only: shell_stresses
   use gfb_meshed_foil, only: meshed_foil_type, top_surface
-  use gfb_shell_foil, only: add_mass_block, expand, turning, work_of_surface
+  use gfb_shell_foil, only: add_mass_block, count_rows, expand, turning, work_of_surface
   implicit none (type)
   private
   public :: create_plate_foil
@@ -70,7 +64,7 @@ module gfb_plate_foil
     integer :: line = 0, strip = 1   !! of the crest
   end type spring_type
 
-  integer, parameter :: tangential = 1, radial = 2, axial = 3 !! components of a displacement
+  integer, parameter :: radial = 2, axial = 3 !! components of a displacement
   real(wp), parameter :: round_off = 1.0e-11_wp !! of a shape function [1]
 
 contains
@@ -92,7 +86,7 @@ contains
     foil%ambient_pressure = scene%gas%ambient_pressure
     foil%at_points = scene%model%spring_pitch > 0.0_wp
     foil%two_sided = scene%model%crest_springs == springs_two_sided
-    call build_plate(scene, film, division, foil%top, error)
+    call build_top(scene, film, 0.0_wp, division, foil%top, error, bends_only=.true.)
     if (allocated(error)) return
     call take_stiffness(foil)
     lines = crest_lines(scene)
@@ -106,43 +100,19 @@ contains
     foil%row_entries = foil%row_entries + around + merge(around, 0, foil%has_room)
   end subroutine create_plate_foil
 
-  !> The plate on the film's nodes, held at its fixed edge, and nowhere moved along its surface.
-  !>
-  !> Fails where an element is degenerate.
-  subroutine build_plate(scene, film, division, top, error)
-    type(scene_type), intent(in) :: scene
-    type(film_mesh_type), intent(in) :: film
-    type(division_type), intent(in) :: division
-    type(foil_structure_type), intent(out) :: top
-    type(error_type), allocatable, intent(out) :: error
-    type(quad_mesh_type) :: mesh
-    type(substructure_type) :: none(0)
-    logical, allocatable :: fixed(:, :)
-
-    mesh = top_mesh(film, 0.0_wp, columns_window(division%film, this_rank() + 1))
-    call find_symmetry_supports(mesh, fixed, film%opposite)
-    fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
-    fixed([tangential, axial], :) = .true.
-    call create_foil_structure(mesh, plate_section(scene), fixed, none, .false., top, error, division%film)
-  end subroutine build_plate
-
   !> The structure's matrix becomes the foil's: both have the same numbers.
   subroutine take_stiffness(foil)
     type(plate_foil_type), intent(inout) :: foil
-    PetscInt :: first, last, row, entries, column(foil%top%row_entries())
+    PetscInt, dimension(foil%top%part%owned_unknowns) :: inside, outside
     PetscErrorCode :: ierr
 
+    call count_rows(foil%top, inside, outside)
+    foil%row_entries = int(inside + outside)
     foil%owned = foil%top%part%owned_unknowns
     foil%owned_top = foil%owned
     foil%elastic = foil%top%stiffness
     foil%top%created = .false. ! the foil frees it
     foil%elastic_loses = .false.
-    allocate (foil%row_entries(foil%owned))
-    PetscCallA(MatGetOwnershipRange(foil%elastic, first, last, ierr))
-    do row = first, last - 1
-      call copy_row(foil%elastic, row, entries, column)
-      foil%row_entries(row - first + 1) = int(entries)
-    end do
     PetscCallA(MatCreateVecs(foil%elastic, foil%state, foil%force, ierr))
     foil%has_matrix = .true.
   end subroutine take_stiffness

@@ -38,7 +38,7 @@ module gfb_shell_foil
   use gfb_initial_moment, only: add_initial_moment
   implicit none (type)
   private
-  public :: create_shell_foil, add_mass_block, expand, turning, work_of_surface
+  public :: create_shell_foil, add_mass_block, count_rows, expand, turning, work_of_surface
 
   !> Both foils, each a structure of shells, full or condensed.
   type, extends(meshed_foil_type), public :: shell_foil_type
@@ -500,8 +500,8 @@ contains
 
   !> Entries of a structure's own rows, in this rank's columns and in others.
   subroutine count_rows(structure, inside, outside)
-    type(foil_structure_type), intent(in) :: structure
-    PetscInt, intent(out) :: inside(:), outside(:)
+    type(foil_structure_type), intent(in) :: structure !! with its stiffness
+    PetscInt, intent(out) :: inside(:), outside(:) !! of each owned row
     PetscInt :: first, last, row, found, column(structure%row_entries())
     PetscErrorCode :: ierr
 

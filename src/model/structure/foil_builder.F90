@@ -25,7 +25,8 @@ module gfb_foil_builder
   public :: build_top, build_bumps, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, keep_elements, gaps_beside, &
             find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
 
-  integer, parameter, public :: axial = 3         !! component of a displacement
+  integer, parameter :: tangential = 1            !! component of a displacement
+  integer, parameter, public :: axial = 3         !! another
   integer, parameter, public :: about_tangent = 5 !! rotation about the second axis
 
   !> What the program decided about a foil.
@@ -246,13 +247,14 @@ contains
   !> The top foil on the film's nodes.
   !>
   !> Fails where an element is degenerate.
-  subroutine build_top(scene, film, height, division, top, error)
+  subroutine build_top(scene, film, height, division, top, error, bends_only)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(film_mesh_type), intent(in) :: film !! the film's mesh
     real(wp), intent(in) :: height !! of the mid-surface above the flats' [m]
     type(division_type), intent(in) :: division !! of film and bumps
     type(foil_structure_type), intent(out) :: top !! with its equations
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    logical, intent(in), optional :: bends_only !! nothing moves it along its surface; default: it may
 
     type(quad_mesh_type) :: mesh
     type(substructure_type) :: none(0)
@@ -261,6 +263,7 @@ contains
     mesh = top_mesh(film, height, columns_window(division%film, this_rank() + 1))
     call find_symmetry_supports(mesh, fixed, film%opposite)
     fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
+    if (present(bends_only)) fixed([tangential, axial], :) = fixed([tangential, axial], :) .or. bends_only
     call create_foil_structure(mesh, plate_section(scene), fixed, none, .false., top, error, division%film)
   end subroutine build_top
 

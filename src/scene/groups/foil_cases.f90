@@ -5,7 +5,7 @@ module gfb_foil_cases
   use gfb_case_keys, only: case_keys_type, no_default, between, positive, longest_list, &
                            rule_type, unless, at_least, from_to, not_negative
   use gfb_scene_case, only: needs_type
-  use gfb_text, only: text
+  use gfb_text, only: text, join
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_length
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner
@@ -14,7 +14,7 @@ module gfb_foil_cases
   public :: top_foil_case_type, read_top_foil_case, initial_curvature, size_type, of_bump, &
             of_strip, complain_of_sizes, bump_foil_case_type, read_bump_foil_case, has_flats, &
             bumps_overlap, gap_of_crest, gap_of_corner, solid_width, has_sizes, one_bump, &
-            one_strip, strips_differ, sizes_mirror, draw_gaps, largest_gap
+            one_strip, strips_differ, sizes_mirror, draw_gaps, largest_gap, missing_of_bumps
 
   integer, parameter, public :: top_foil_leading = 1  !! fixed at its leading edge
   integer, parameter, public :: top_foil_trailing = 2 !! fixed at its trailing edge
@@ -393,6 +393,33 @@ contains
     if (bearing%is_thrust()) length = 0.5_wp*(bearing%inner_radius + bearing%radius)* &
                                       pad_angle(bearing)*(1.0_wp - bearing%ramp_part)
   end function strip_length
+
+  !> What of the sizes and the material that Walowit and Anno's stiffness follows from is not given;
+  !> empty where all is.
+  function missing_of_bumps(keys, by_strip, pitched) result(words)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    logical, intent(in) :: by_strip !! values of each strip count, too
+    logical, intent(out) :: pitched !! the pitch is given, or follows
+    character(len=:), allocatable :: words
+    character(len=*), parameter :: needed(*) = [character(len=14) :: 'thickness', &
+      'youngs_modulus', 'poissons_ratio', 'half_length', 'pitch or bumps']
+    logical :: given(size(needed))
+    integer :: i
+
+    given = [(has(trim(needed(i))), i=1, size(needed))]
+    pitched = has('pitch') .or. keys%meant(group, 'bumps')
+    given(size(needed)) = pitched
+    words = join(pack(needed, .not. given), ', ')
+
+  contains
+
+    !> Whether a size is given.
+    logical function has(name)
+      character(len=*), intent(in) :: name !! of the key
+      has = keys%meant(group, name)
+      if (by_strip .and. .not. has) has = keys%meant(group, 'strip_'//name)
+    end function has
+  end function missing_of_bumps
 
   !> Reads how the strip is cut into strips side by side.
   subroutine read_cuts(keys, foil, thrust)
