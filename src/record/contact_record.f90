@@ -156,6 +156,7 @@ contains
       allocate (position(3, size(own)))
       position(1, :) = real(point(own)%line, wp)
       position(2:3, :) = mesh%position([1, 3], point(own)%node)
+      if (mesh%ring_radius > 0.0_wp) position(2, :) = position(2, :)*position(3, :)/mesh%ring_radius
     end associate
     if (total == 0) return
     values = fetch_entries(total, number, position, all_nodes)

@@ -22,7 +22,8 @@ module gfb_shell_element
   use gfb_shell_geometry, only: shell_section_type, shell_lamina_type, shell_geometry_type, &
                                 shell_nodes, shell_unknowns, node_unknowns, shell_abscissa, &
                                 check_shell, bilinear, shell_base, shell_lamina
-  use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized
+  use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized, &
+                            take_directions
   use gfb_errors, only: error_type
   implicit none (type, external)
   private
@@ -296,6 +297,7 @@ contains
       end do
     end do
     call square(factor, stiffness)
+    call take_directions(turn, stiffness)
     call drop_round_off(stiffness)
   end subroutine shell_stiffness
 

@@ -13,7 +13,8 @@
 !> director anyway, at a kink it follows the element's translations (`gfb_shell_turn`).
 !>
 !> Nodes run counter-clockwise seen from the tips of the directors. Unknowns of an element, node by
-!> node: three displacements along the global axes [m], \( \alpha, \beta \) [rad].
+!> node: three displacements [m], \( \alpha, \beta \) [rad]. Displacements are along the axes of the
+!> positions, or, on a ring, along these turned about the second one by an angle of each node.
 module gfb_shell_geometry
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
@@ -39,6 +40,10 @@ module gfb_shell_geometry
     real(wp) :: position(3, shell_nodes) !! of the nodes on the mid-surface [m]
     real(wp) :: director(3, shell_nodes) !! unit thickness directions of this element [1]
     real(wp) :: axis(3, 2, shell_nodes)  !! unit rotation axes V1, V2 of the nodes [1]
+    !> of the displacements' directions at the nodes, about the second axis of the positions [rad]
+    real(wp) :: angle(shell_nodes) = 0.0_wp
+  contains
+    procedure :: is_turned, directions
   end type shell_geometry_type
 
   !> What an element is made of.
@@ -88,6 +93,25 @@ contains
       call fail(error, 'a director of a shell element lies in the plane of its rotation axes')
     end if
   end subroutine check_shell
+
+  !> Whether displacements have directions of their own at the nodes.
+  pure logical function is_turned(self) result(turned)
+    class(shell_geometry_type), intent(in) :: self !! the element
+    turned = any(abs(self%angle) > 0.0_wp)
+  end function is_turned
+
+  !> Directions of a node's three displacements, in columns along the axes of the positions [1].
+  pure function directions(self, node) result(direction)
+    class(shell_geometry_type), intent(in) :: self !! the element
+    integer, intent(in) :: node !! of the element
+    real(wp) :: direction(3, 3)
+
+    associate (c => cos(self%angle(node)), s => sin(self%angle(node)))
+      direction(:, 1) = [c, 0.0_wp, -s]
+      direction(:, 2) = [0.0_wp, 1.0_wp, 0.0_wp]
+      direction(:, 3) = [s, 0.0_wp, c]
+    end associate
+  end function directions
 
   !> Sines of the corners' angles, positive where they run counter-clockwise about the director.
   pure function corner_sines(geometry) result(sine)

@@ -1,4 +1,4 @@
-!> How the directors of an element turn with its unknowns.
+!> How the nodes of an element move and its directors turn with its unknowns.
 !>
 !> $$ \boldsymbol\varphi_a = \frac{h}{2} \, \boldsymbol\theta_a \times \mathbf{V}_a, \qquad
 !>    \boldsymbol\theta_a = \alpha_a \mathbf{V}^1_a + \beta_a \mathbf{V}^2_a
@@ -20,7 +20,7 @@ module gfb_shell_turn
                                 bilinear, cross
   implicit none (type, external)
   private
-  public :: shell_turn, shell_motion, shell_generalized
+  public :: shell_turn, shell_motion, shell_generalized, take_directions
 
   !> Sine of the angle between director and nodal normal up to which a node is smooth; round-off.
   real(wp), parameter :: smooth_sine = 1.0e-12_wp
@@ -30,7 +30,10 @@ module gfb_shell_turn
     real(wp) :: rate(3, 2, shell_nodes)             !! by alpha and beta of the node [m]
     logical :: kink(shell_nodes)                    !! the director is not the nodal normal
     real(wp) :: drill_rate(3, shell_nodes)          !! by gamma of the node [m]; zero if smooth
-    real(wp) :: drill(shell_unknowns, shell_nodes)  !! gamma by the unknowns, at kinks [1/m], [1]
+    !> gamma at kinks by displacements along the axes of the positions and by rotations [1/m], [1]
+    real(wp) :: drill(shell_unknowns, shell_nodes)
+    logical :: is_turned = .false.                  !! displacements are along `direction`
+    real(wp) :: direction(3, 3, shell_nodes)        !! of the nodes' displacements, in columns [1]
   end type shell_turn_type
 
 contains
@@ -54,7 +57,34 @@ contains
       if (turn%kink(a)) turn%drill_rate(:, a) = 0.5_wp*thickness*rate
     end do
     if (any(turn%kink)) turn%drill = drill_rows(geometry, turn%kink)
+    turn%is_turned = geometry%is_turned()
+    if (.not. turn%is_turned) return
+    do a = 1, shell_nodes
+      turn%direction(:, :, a) = geometry%directions(a)
+    end do
   end function shell_turn
+
+  !> A matrix between displacements along the axes of the positions becomes one between the unknowns.
+  pure subroutine take_directions(turn, matrix)
+    type(shell_turn_type), intent(in) :: turn !! with the nodes' directions
+    real(wp), intent(inout) :: matrix(shell_unknowns, shell_unknowns) !! stiffness, symmetric
+    integer :: a
+
+    if (.not. turn%is_turned) return
+    do a = 1, shell_nodes
+      associate (first => node_unknowns*(a - 1) + 1, last => node_unknowns*(a - 1) + 3, &
+                 direction => turn%direction(:, :, a))
+        matrix(:, first:last) = matmul(matrix(:, first:last), direction)
+      end associate
+    end do
+    do a = 1, shell_nodes
+      associate (first => node_unknowns*(a - 1) + 1, last => node_unknowns*(a - 1) + 3, &
+                 direction => turn%direction(:, :, a))
+        matrix(first:last, :) = matmul(transpose(direction), matrix(first:last, :))
+      end associate
+    end do
+    matrix = 0.5_wp*(matrix + transpose(matrix))
+  end subroutine take_directions
 
   !> The drilling rotations at kinks as rows over the unknowns.
   pure function drill_rows(geometry, kink) result(drill)
@@ -95,15 +125,22 @@ contains
     type(shell_turn_type), intent(in) :: turn !! rotations of the directors
     real(wp), intent(in) :: displacement(shell_unknowns) !! u, v, w [m], alpha, beta [rad] a node
     real(wp), intent(out) :: translation(3, shell_nodes), change(3, shell_nodes) !! [m]
+    real(wp) :: moved(shell_unknowns) !! the same, along the axes of the positions
     integer :: a
 
+    moved = displacement
+    do a = 1, merge(shell_nodes, 0, turn%is_turned)
+      associate (first => node_unknowns*(a - 1))
+        moved(first + 1:first + 3) = matmul(turn%direction(:, :, a), displacement(first + 1:first + 3))
+      end associate
+    end do
     do a = 1, shell_nodes
       associate (first => node_unknowns*(a - 1))
-        translation(:, a) = displacement(first + 1:first + 3)
-        change(:, a) = matmul(turn%rate(:, :, a), displacement(first + 4:first + 5))
+        translation(:, a) = moved(first + 1:first + 3)
+        change(:, a) = matmul(turn%rate(:, :, a), moved(first + 4:first + 5))
       end associate
       if (turn%kink(a)) change(:, a) = change(:, a) &
-        + dot_product(turn%drill(:, a), displacement)*turn%drill_rate(:, a)
+        + dot_product(turn%drill(:, a), moved)*turn%drill_rate(:, a)
     end do
   end subroutine shell_motion
 
@@ -125,6 +162,11 @@ contains
       end associate
       if (turn%kink(a)) generalized = generalized &
         + dot_product(turn%drill_rate(:, a), couple(:, a))*turn%drill(:, a)
+    end do
+    do a = 1, merge(shell_nodes, 0, turn%is_turned)
+      associate (first => node_unknowns*(a - 1))
+        generalized(first + 1:first + 3) = matmul(generalized(first + 1:first + 3), turn%direction(:, :, a))
+      end associate
     end do
   end function shell_generalized
 end module gfb_shell_turn

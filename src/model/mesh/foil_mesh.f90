@@ -7,6 +7,9 @@
 !>
 !> $$ R_b = \frac{l^2 + h_b^2}{2 h_b} $$
 !>
+!> Under a sector stations are rays: at the radius r the arc is wider by r/r_m, and as high, so that
+!> normals lean as much less. Everything repeats under a turn.
+!>
 !> Rows of strips side by side along the axis, and where they are cut apart.
 !>
 !> Strips side by side with bumps of their own, as one mesh.
@@ -44,6 +47,8 @@ module gfb_foil_mesh
     integer :: begins = fixed_line_corner    !! how, at its fixed edge
     logical :: mirrored = .false.            !! the fixed edge is the one at the largest x
     real(wp) :: edge = 0.0_wp                !! x of the fixed edge [m]
+    real(wp) :: ring_radius = 0.0_wp         !! of a sector, where x is measured; 0: none [m]
+    real(wp) :: mean_radius = 0.0_wp         !! of a sector's strip, where bumps have their sizes [m]
     integer :: arc_elements = 12             !! even, so that a node lies on the crest
     integer :: flat_elements = 3
   end type strip_shape_type
@@ -202,26 +207,16 @@ contains
     angle = 2.0_wp*atan2(height, half_length)
   end function half_angle
 
-  !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0). Of a ring it is a sector,
-  !> x and z straight, z along the radius in its middle.
+  !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0).
   pure function top_mesh(film, height, window) result(mesh)
     type(film_mesh_type), intent(in) :: film   !! the film's mesh
     real(wp), intent(in) :: height             !! of the mid-surface above the flats' [m]
     integer, intent(in), optional :: window(2) !! first and last station; default: all
     type(quad_mesh_type) :: mesh
-    real(wp) :: turned !! from the pad's middle [rad]
-    integer :: node, last
 
     mesh = top_foil_mesh(film%surface%radius*(film%station_angle - film%station_angle(1)), height, &
                          film%row_axial, film%half, window)
-    if (.not. film%surface%is_ring()) return
-    last = film%stations()
-    do node = lbound(mesh%position, 2), ubound(mesh%position, 2)
-      turned = film%station_angle((node - 1)/mesh%rows + 1) &
-               - 0.5_wp*(film%station_angle(1) + film%station_angle(last))
-      mesh%position(1::2, node) = film%row_axial(modulo(node - 1, mesh%rows) + 1)* &
-                                  [sin(turned), cos(turned)]
-    end do
+    if (film%surface%is_ring()) mesh%ring_radius = film%surface%radius
   end function top_mesh
 
   !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,
@@ -236,7 +231,8 @@ contains
     type(station_type), allocatable :: station(:)
 
     station = strip_stations(shape)
-    mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half, window)
+    mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half, window, shape%mean_radius)
+    mesh%ring_radius = shape%ring_radius
     call name_sets(mesh, station, shape)
   end function bump_strip_mesh
 
@@ -362,6 +358,7 @@ contains
     end associate
     list(n)%divides = .true.
     station = list(:n)
+    if (shape%ring_radius > 0.0_wp) station%along = shape%ring_radius/shape%mean_radius*station%along
   end function strip_stations
 
   !> Adds the stations of an arc.
@@ -416,7 +413,7 @@ contains
   end subroutine add_flat
 
   !> Nodes, elements and directors over stations and rows.
-  pure function station_mesh(station, edge, mirrored, rows, half, window) result(mesh)
+  pure function station_mesh(station, edge, mirrored, rows, half, window, mean_radius) result(mesh)
     type(station_type), intent(in) :: station(:)
     real(wp), intent(in) :: edge     !! x of the first station [m]
     logical, intent(in) :: mirrored  !! stations run towards smaller x
@@ -424,10 +421,13 @@ contains
     logical, intent(in) :: half
     !> first and last station of the stretch; default: all
     integer, intent(in), optional :: window(2)
+    !> of a sector, at which the normals are; 0, as by default: none [m]
+    real(wp), intent(in), optional :: mean_radius
     type(quad_mesh_type) :: mesh
-    real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station)), mean(2), face(2)
+    real(wp) :: x(size(station)), v(size(station)), normal(2, 2, size(station))
+    real(wp) :: lean(size(rows)) ! of the normals on each row
     logical :: kink(size(station))
-    integer :: i, j, node, element, here, first, last, stretch(2)
+    integer :: i, j, first, last, stretch(2)
 
     stretch = [1, size(station)]
     if (present(window)) stretch = window
@@ -454,38 +454,83 @@ contains
     mesh%stations = size(x)
     mesh%half = half
     mesh%row_axial = rows
-    node = (first - 1)*mesh%rows
-    allocate (mesh%position(3, node + 1:last*mesh%rows), mesh%axis_1(3, node + 1:last*mesh%rows))
-    allocate (mesh%axis_2(3, node + 1:last*mesh%rows), mesh%face(2, node + 1:last*mesh%rows))
+    associate (before => (first - 1)*mesh%rows + 1)
+      allocate (mesh%position(3, before:last*mesh%rows), mesh%axis_1(3, before:last*mesh%rows))
+      allocate (mesh%axis_2(3, before:last*mesh%rows), mesh%face(2, before:last*mesh%rows))
+    end associate
+    lean = 1.0_wp
+    if (present(mean_radius)) then
+      if (mean_radius > 0.0_wp) lean = mean_radius/rows
+    end if
     do i = first, last
-      mean = normal(:, 1, i)
-      face = merge(corner_face(normal(:, :, i)), mean, kink(i))
-      ! At corners the flat's, also at an end without a flat: pieces stay congruent.
-      if (kink(i)) mean = [0.0_wp, 1.0_wp]
       do j = 1, size(rows)
-        node = node + 1
-        mesh%position(:, node) = [x(i), v(i), rows(j)]
-        mesh%face(:, node) = face
-        mesh%axis_1(:, node) = [0.0_wp, 0.0_wp, 1.0_wp]
-        mesh%axis_2(:, node) = [mean(2), -mean(1), 0.0_wp] ! normal x axis_1
+        mesh%position(:, (i - 1)*mesh%rows + j) = [x(i), v(i), rows(j)]
+        call put_axes(mesh, (i - 1)*mesh%rows + j, leaning(normal(:, :, i), lean(j)), kink(i))
       end do
     end do
+    call put_elements(mesh, first, last, normal, lean)
+  end function station_mesh
+
+  !> Elements and directors of a stretch of stations.
+  pure subroutine put_elements(mesh, first, last, normal, lean)
+    type(quad_mesh_type), intent(inout) :: mesh
+    integer, intent(in) :: first, last       !! stations
+    real(wp), intent(in) :: normal(:, :, :)  !! (2, 2, stations) of the elements before and after [1]
+    real(wp), intent(in) :: lean(:)          !! of the rows [1]
+    real(wp) :: there(2, 2)
+    integer :: i, j, element, here, corner
+
     element = (first - 1)*(mesh%rows - 1)
     ! gfortran copies an array without elements only if its bounds are one apart.
     here = max(element, (last - 1)*(mesh%rows - 1))
     allocate (mesh%element_nodes(4, element + 1:here))
     allocate (mesh%director(3, 4, element + 1:here), source=0.0_wp)
     do i = first, last - 1
-      do j = 1, size(rows) - 1
+      do j = 1, mesh%rows - 1
         element = element + 1
-        here = (i - 1)*size(rows) + j
+        here = (i - 1)*mesh%rows + j
         ! Seen from the shaft, with x to the right, z points down the page.
-        mesh%element_nodes(:, element) = [here, here + 1, here + size(rows) + 1, here + size(rows)]
-        mesh%director(:2, 1:2, element) = spread(normal(:, 2, i), 2, 2)
-        mesh%director(:2, 3:4, element) = spread(normal(:, 1, i + 1), 2, 2)
+        mesh%element_nodes(:, element) = [here, here + 1, here + mesh%rows + 1, here + mesh%rows]
+        do corner = 0, 1
+          there = leaning(normal(:, :, i), lean(j + corner))
+          mesh%director(:2, 1 + corner, element) = there(:, 2)
+          there = leaning(normal(:, :, i + 1), lean(j + corner))
+          mesh%director(:2, 4 - corner, element) = there(:, 1)
+        end do
       end do
     end do
-  end function station_mesh
+  end subroutine put_elements
+
+  !> Normals on a row: under a sector they lean less outside.
+  pure function leaning(normal, lean) result(there)
+    real(wp), intent(in) :: normal(2, 2) !! of the elements before and after, (x, v) each [1]
+    real(wp), intent(in) :: lean         !! slope there over theirs [1]
+    real(wp) :: there(2, 2)
+    integer :: side
+
+    there = normal
+    if (.not. abs(lean - 1.0_wp) > 0.0_wp) return
+    there(1, :) = lean*normal(1, :)
+    do side = 1, 2
+      there(:, side) = there(:, side)/norm2(there(:, side))
+    end do
+  end function leaning
+
+  !> Rotation axes of a node, and where its upper face is.
+  pure subroutine put_axes(mesh, node, normal, kink)
+    type(quad_mesh_type), intent(inout) :: mesh
+    integer, intent(in) :: node
+    real(wp), intent(in) :: normal(2, 2) !! of the elements before and after, (x, v) each [1]
+    logical, intent(in) :: kink
+    real(wp) :: mean(2)
+
+    mean = normal(:, 1)
+    mesh%face(:, node) = merge(corner_face(normal), mean, kink)
+    ! At corners the flat's, also at an end without a flat: pieces stay congruent.
+    if (kink) mean = [0.0_wp, 1.0_wp]
+    mesh%axis_1(:, node) = [0.0_wp, 0.0_wp, 1.0_wp]
+    mesh%axis_2(:, node) = [mean(2), -mean(1), 0.0_wp] ! normal x axis_1
+  end subroutine put_axes
 
   !> Names the lines of a strip.
   pure subroutine name_sets(mesh, station, shape)

@@ -17,6 +17,9 @@ module gfb_quad_mesh
 
   !> A surface mesh. Positions are (x, v, z): along the shaft's motion, towards the shaft, along
   !> the axis.
+  !>
+  !> On a ring they are (R theta, v, r), R that of the ring: rays and circles unrolled. Directors,
+  !> axes and displacements are along the motion, up, and along the radius at their own node.
   type, public :: quad_mesh_type
     real(wp), allocatable :: position(:, :)      !! (3, nodes) on the mid-surface [m]
     !> (4, elements), counter-clockwise seen from the shaft
@@ -43,6 +46,7 @@ module gfb_quad_mesh
     integer :: rows = 0
     integer :: stations = 0                      !! of the whole mesh
     logical :: half = .false.                    !! z >= 0 only
+    real(wp) :: ring_radius = 0.0_wp             !! at which x is measured; 0: no ring [m]
   contains
     procedure :: nodes => whole_nodes
     procedure :: elements => whole_elements
@@ -185,6 +189,7 @@ contains
     part%rows = mesh%rows
     part%stations = stretch(2) - stretch(1) + 1
     part%half = mesh%half
+    part%ring_radius = mesh%ring_radius
     if (allocated(mesh%row_axial)) part%row_axial = mesh%row_axial
     if (allocated(mesh%cut)) part%cut = mesh%cut
     if (allocated(mesh%row_thickness)) part%row_thickness = mesh%row_thickness

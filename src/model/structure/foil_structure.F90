@@ -171,7 +171,28 @@ contains
       geometry%axis(:, 1, :) = mesh%axis_1(:, nodes)
       geometry%axis(:, 2, :) = mesh%axis_2(:, nodes)
     end associate
+    if (mesh%ring_radius > 0.0_wp) call roll_up(mesh%ring_radius, geometry)
   end function element_geometry
+
+  !> Puts an element of a ring where it is in space, seen along the ray in its middle: equal ones are equal all around.
+  !>
+  !> $$ (x, v, r) \to (r \sin \varphi, v, r \cos \varphi), \quad \varphi = (x - x_m)/R $$
+  pure subroutine roll_up(radius, geometry)
+    real(wp), intent(in) :: radius !! R, at which x is measured [m]
+    type(shell_geometry_type), intent(inout) :: geometry !! unrolled; in space
+    real(wp) :: direction(3, 3)
+    integer :: node
+
+    associate (x => geometry%position(1, :), r => geometry%position(3, :))
+      geometry%angle = (x - 0.5_wp*(minval(x) + maxval(x)))/radius
+      do node = 1, size(geometry%angle)
+        direction = geometry%directions(node)
+        geometry%position(:, node) = [r(node)*direction(1, 3), geometry%position(2, node), r(node)*direction(3, 3)]
+        geometry%director(:, node) = matmul(direction, geometry%director(:, node))
+        geometry%axis(:, :, node) = matmul(direction, geometry%axis(:, :, node))
+      end do
+    end associate
+  end subroutine roll_up
 
   !> What an element of a mesh is made of.
   pure function element_section(mesh, section, element) result(own)

@@ -269,27 +269,29 @@ contains
     end do
   end subroutine add_foil_grids
 
-  !> A sector's surface where it lies in space, its upper face up: x and z of its mesh turn with the ray in the pad's middle.
+  !> A sector's surface where it lies in space, its upper face up: rays and circles of its mesh rolled up.
   function grid_in_space(grid, name, film, further) result(placed)
-    type(result_grid_type), intent(in) :: grid !! in the mesh's own directions
+    type(result_grid_type), intent(in) :: grid !! unrolled
     character(len=*), intent(in) :: name !! of the grid and its file
     type(film_mesh_type), intent(in) :: film !! over it
     real(wp), intent(in) :: further !! turn of a pad for which this one stands [rad]
     type(result_grid_type) :: placed
     real(wp) :: angle, turned(3, 3)
-    integer :: i
+    integer :: i, k
 
-    angle = 0.5_wp*(film%station_angle(1) + film%station_angle(film%stations())) + further
-    turned(:, 1) = [-sin(angle), cos(angle), 0.0_wp]
-    turned(:, 2) = [0.0_wp, 0.0_wp, 1.0_wp]
-    turned(:, 3) = [cos(angle), sin(angle), 0.0_wp]
     placed = grid
     placed%name = name
-    placed%grid%point = matmul(turned, grid%grid%point)
-    do i = 1, size(placed%point_field)
-      associate (field => placed%point_field(i))
-        if (size(field%block, 1) == size(turned, 1)) field%block = matmul(turned, field%block)
-      end associate
+    do i = 1, size(grid%grid%point, 2)
+      angle = film%station_angle(1) + grid%grid%point(1, i)/film%surface%radius + further
+      turned(:, 1) = [-sin(angle), cos(angle), 0.0_wp]
+      turned(:, 2) = [0.0_wp, 0.0_wp, 1.0_wp]
+      turned(:, 3) = [cos(angle), sin(angle), 0.0_wp]
+      placed%grid%point(:, i) = matmul(turned, [0.0_wp, grid%grid%point(2:, i)])
+      do k = 1, size(placed%point_field)
+        associate (block => placed%point_field(k)%block)
+          if (size(block, 1) == size(turned, 1)) block(:, i) = matmul(turned, block(:, i))
+        end associate
+      end do
     end do
   end function grid_in_space
 end module gfb_foil_grid
