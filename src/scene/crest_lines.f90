@@ -9,7 +9,7 @@
 !> with l half the chord at the mean radius. Source: [WalowitAnno1975], times the pitch.
 module gfb_crest_lines
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_angle
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, strip_ends
   use gfb_foil_cases, only: bump_foil_case_type, one_strip, fixed_edge_trailing
   use gfb_scene, only: scene_type
   use gfb_strip_load_case, only: bump_stiffness
@@ -41,18 +41,14 @@ contains
     type(crest_line_type) :: one
     type(bump_foil_case_type) :: foil
     real(wp), allocatable :: angle(:)
-    real(wp) :: from, width
     integer :: strip, i
 
     allocate (lines(0))
-    associate (bearing => scene%bearing, strips => scene%bump_foil%strips, &
-               cut => scene%bump_foil%cut_width)
-      from = merge(bearing%inner_radius, -0.5_wp*bearing%length, bearing%is_thrust())
-      width = (bearing%length - real(strips - 1, wp)*cut)/real(strips, wp)
-      do strip = 1, strips
+    associate (bearing => scene%bearing)
+      do strip = 1, scene%bump_foil%strips
         foil = one_strip(scene%bump_foil, strip)
         one%strip = strip
-        one%ends = from + real(strip - 1, wp)*(width + cut) + [0.0_wp, width]
+        one%ends = strip_ends(bearing, scene%bump_foil%strips, scene%bump_foil%cut_width, strip)
         one%mean_radius = bearing%radius
         if (bearing%is_thrust()) one%mean_radius = 0.5_wp*sum(one%ends)
         one%stiffness = scene%model%crest_stiffness

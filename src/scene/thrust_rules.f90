@@ -1,9 +1,11 @@
 !> What a thrust bearing asks of the scene.
 module gfb_thrust_rules
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, needs_journal, needs_thrust
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, strip_ends, needs_journal, &
+                              needs_thrust
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_plate, &
+  use gfb_foil_cases, only: bump_foil_case_type, one_strip
+  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_plate, foil_shell, &
                             foundation_pressure_local
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
@@ -49,8 +51,8 @@ contains
                      'cannot be that of a thrust bearing yet: its runner is '// &
                      'not followed over time')
       call keys%rule('model', 'foil', all(foil /= [0, foil_rigid, foil_elastic_foundation, &
-                     foil_plate]), "must be 'rigid', 'elastic_foundation' or 'plate' with "// &
-                     "kind = 'thrust' in &bearing")
+                     foil_plate, foil_shell]), "must be 'rigid', 'elastic_foundation', "// &
+                     "'plate' or 'shell' with kind = 'thrust' in &bearing")
       call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. asked(size(asked) - 1) .and. &
                      .not. scene%general%analysis == analysis_equilibrium, 'names a result of '// &
                      'journal bearings, or axial_gap where it is held')
@@ -59,6 +61,7 @@ contains
                      scene%shaft_contact%present, 'cannot be carried by flat pads under an '// &
                      'aligned runner, whose film has no wedge: give &ramp')
       call check_strips(keys, scene)
+      if (foil == foil_shell) call check_bump_strips(keys, scene%bump_foil, scene%bearing)
       call check_rigid_gap(keys, scene)
     end associate
   end subroutine check_thrust
@@ -104,6 +107,38 @@ contains
       end associate
     end associate
   end subroutine check_strips
+
+  !> Strips of shells end on the pad, each laid at its own mean radius; the first that does not is
+  !> named.
+  subroutine check_bump_strips(keys, foil, bearing)
+    type(case_keys_type), intent(inout) :: keys
+    type(bump_foil_case_type), intent(in) :: foil
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
+    type(bump_foil_case_type) :: one
+    character(len=:), allocatable :: key
+    real(wp) :: last, radius !! where a strip ends [rad], its mean radius [m]
+    integer :: strip
+
+    if (.not. (foil%bumps > 0 .and. foil%pitch%value > 0.0_wp .and. bearing%length > 0.0_wp)) return
+    if (real(foil%strips - 1, wp)*foil%cut_width >= bearing%length) return
+    key = foil%pitch%key_in(keys)
+    if (key == 'pitch' .and. .not. keys%holds('bump_foil', 'pitch')) key = 'bumps'
+    if (keys%holds('bump_foil', 'strip_offset')) key = 'strip_offset'
+    do strip = 1, foil%strips
+      one = one_strip(foil, strip)
+      radius = 0.5_wp*sum(strip_ends(bearing, foil%strips, foil%cut_width, strip))
+      last = bearing%ramp_part*pad_angle(bearing) &
+        + (one%offset%value + sum(one%pitch%each(one%bumps)))/radius
+      if (last <= pad_angle(bearing)*(1.0_wp + rounding)) cycle
+      call keys%complain('bump_foil', key, 'strip '//text(strip)//' of '//text(foil%strips)// &
+                         ' ends at '//text(last*degrees, 4)//' deg, past the edge of the pad at '// &
+                         text(pad_angle(bearing)*degrees, 4)//' deg: it has '// &
+                         text(one%bumps)//' bumps of the pitch '//text(one%pitch%value)// &
+                         ' m at its mean radius '//text(radius)//' m, behind the ramp')
+      return
+    end do
+  end subroutine check_bump_strips
 
   !> A rigid pad leaves the runner its gap everywhere.
   subroutine check_rigid_gap(keys, scene)

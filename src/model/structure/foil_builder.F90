@@ -6,7 +6,7 @@ module gfb_foil_builder
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
-  use gfb_bearing_case, only: pad_length
+  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle, strip_ends
   use gfb_foil_cases, only: top_foil_leading, bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows
@@ -22,7 +22,7 @@ module gfb_foil_builder
   use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
-  public :: build_top, build_bumps, strip_shape, shape_on_pad, section_of, plate_section, plate_stations, keep_elements, gaps_beside, &
+  public :: build_top, build_bumps, strip_shape, shape_on_pad, sector_sides, section_of, plate_section, plate_stations, keep_elements, gaps_beside, &
             find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
 
   integer, parameter :: tangential = 1            !! component of a displacement
@@ -66,6 +66,19 @@ contains
     end if
   end function plate_stations
 
+  !> Where sides of elements lie over the bumps of a sector, from its leading edge: at crests, where those of all strips are on the
+  !> same rays, and at the end of the ramp [rad].
+  function sector_sides(scene) result(angle)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    real(wp), allocatable :: angle(:)
+
+    allocate (angle(0))
+    associate (bearing => scene%bearing)
+      if (bearing%ramp_part > 0.0_wp) angle = [bearing%ramp_part*pad_angle(bearing)]
+      if (scene%mesh%align_crests) angle = [angle, crest_positions(shape_on_pad(scene))/bearing%radius]
+    end associate
+  end function sector_sides
+
   !> Elements from crest to crest where stations lie above the crests.
   elemental integer function elements_a_pitch(scene) result(elements)
     type(scene_type), intent(in) :: scene !! what the case file asks for
@@ -89,7 +102,7 @@ contains
     type(scene_type), intent(inout) :: there !! that differs from it
 
     there%mesh%circumferential_elements = scene%mesh%circumferential_elements
-    if (.not. (scene%mesh%align_crests .and. scene%bump_foil%bumps > 0)) return
+    if (.not. (scene%mesh%align_crests .and. scene%bump_foil%bumps > 0) .or. scene%bearing%is_thrust()) return
     there%mesh%elements_at_ends = elements_at_ends(pad_length(scene%bearing), crest_positions(shape_on_pad(scene)), &
                                                    scene%bump_foil%pitch%value, elements_a_pitch(scene))
   end subroutine keep_elements
@@ -125,9 +138,34 @@ contains
     type(strip_shape_type) :: shape
 
     shape = strip_shape(scene)
+    if (scene%bearing%is_thrust()) then
+      call lay_on_sector(scene%bearing, scene%bump_foil, 0.5_wp*(scene%bearing%inner_radius + scene%bearing%radius), shape)
+      return
+    end if
     shape%edge = scene%bump_foil%offset%value
     if (shape%mirrored) shape%edge = pad_length(scene%bearing) - scene%bump_foil%offset%value
   end function shape_on_pad
+
+  !> Lays a strip on a sector, from the end of its ramp on.
+  pure subroutine lay_on_sector(bearing, foil, radius, shape)
+    type(bearing_case_type), intent(in) :: bearing
+    type(bump_foil_case_type), intent(in) :: foil !! its offset
+    real(wp), intent(in) :: radius !! at which its bumps have their sizes [m]
+    type(strip_shape_type), intent(inout) :: shape !! of the strip alone
+    real(wp) :: before !! its fixed edge, there [m]
+
+    shape%ring_radius = bearing%radius
+    shape%mean_radius = radius
+    before = foil%offset%value
+    if (shape%mirrored) before = before + sum(shape%bump%pitch)
+    shape%edge = shape%ring_radius*(bearing%ramp_part*pad_angle(bearing) + before/radius)
+  end subroutine lay_on_sector
+
+  !> Whether strips side by side have meshes of their own: under a sector each repeats at its own mean radius.
+  pure logical function strips_are_own(scene) result(own)
+    type(scene_type), intent(in) :: scene
+    own = strips_differ(scene%bump_foil) .or. (scene%bearing%is_thrust() .and. scene%bump_foil%strips > 1)
+  end function strips_are_own
 
   !> Shape of a scene's strip, its leading end at x = 0; of strips that differ their mean.
   function strip_shape(scene) result(shape)
@@ -143,9 +181,15 @@ contains
     integer, intent(in) :: strip !! from the smallest z on
     type(strip_shape_type) :: shape
     type(bump_foil_case_type) :: one
+    real(wp) :: ends(2) !! of the strip along the radius [m]
 
     one = one_strip(scene%bump_foil, strip)
     shape = shape_of(scene, one)
+    if (mean%ring_radius > 0.0_wp) then
+      ends = strip_ends(scene%bearing, scene%bump_foil%strips, scene%bump_foil%cut_width, strip)
+      call lay_on_sector(scene%bearing, one, 0.5_wp*sum(ends), shape)
+      return
+    end if
     shape%edge = mean%edge + (one%offset%value - scene%bump_foil%offset%value)* &
                  merge(-1.0_wp, 1.0_wp, mean%mirrored)
   end function shape_beside
@@ -193,15 +237,17 @@ contains
     logical, intent(in) :: half      !! half the width is meshed
     integer, intent(in) :: window(2) !! first and last station of the stretch
     type(quad_mesh_type) :: mesh
+    real(wp), allocatable :: rows(:) ! from the middle of the width
     integer :: strip
 
     associate (foil => scene%bump_foil, strips => scene%bump_foil%strips, &
                cut => scene%bump_foil%cut_width)
-      mesh = bump_strip_mesh(shape, strip_rows(width, axial, half, strips, cut), half, window)
-      mesh%cut = cut_rows(mesh%row_axial, width, strips, cut)
-      if (.not. (strips_differ(foil) .or. allocated(foil%random%further_gap))) return
-      mesh%row_strip = strips_of_rows(mesh%row_axial, width, strips, cut)
-      if (.not. strips_differ(foil)) return
+      rows = strip_rows(width, axial, half, strips, cut)
+      mesh = bump_strip_mesh(shape, shape%mean_radius + rows, half, window)
+      mesh%cut = cut_rows(rows, width, strips, cut)
+      if (.not. (strips_are_own(scene) .or. allocated(foil%random%further_gap))) return
+      mesh%row_strip = strips_of_rows(rows, width, strips, cut)
+      if (.not. strips_are_own(scene)) return
       do strip = minval(mesh%row_strip), strips
         call put_strip(mesh, bump_strip_mesh(shape_beside(scene, shape, strip), mesh%row_axial, &
                                              half, window), strip)

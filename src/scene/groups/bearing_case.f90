@@ -11,7 +11,7 @@ module gfb_bearing_case
   private
   public :: bearing_case_type, bore_case_type, read_bearing_case, read_pads_case, read_bore_case
   public :: read_ramp_case
-  public :: pad_angle, pad_length, pad_turn, preload_angle
+  public :: pad_angle, pad_length, strip_length, strip_ends, pad_turn, preload_angle
 
   integer, parameter, public :: kind_journal = 1 !! a cylinder around the shaft
   integer, parameter, public :: kind_thrust = 2  !! sectors of a ring, a runner above them
@@ -151,6 +151,30 @@ contains
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     length = bearing%radius*pad_angle(bearing)
   end function pad_length
+
+  !> Length of the pad that bumps lie under [m].
+  elemental real(wp) function strip_length(bearing) result(length)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+
+    length = pad_length(bearing)
+    if (bearing%is_thrust()) length = 0.5_wp*(bearing%inner_radius + bearing%radius)* &
+                                      pad_angle(bearing)*(1.0_wp - bearing%ramp_part)
+  end function strip_length
+
+  !> Where one of equal strips side by side ends along the rows of a pad: z, or the radius of a
+  !> sector [m].
+  pure function strip_ends(bearing, strips, cut, strip) result(ends)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    integer, intent(in) :: strips !! side by side
+    real(wp), intent(in) :: cut !! between two of them [m]
+    integer, intent(in) :: strip !! its number, from the smallest z on
+    real(wp) :: ends(2)
+    real(wp) :: from, width
+
+    from = merge(bearing%inner_radius, -0.5_wp*bearing%length, bearing%is_thrust())
+    width = (bearing%length - real(strips - 1, wp)*cut)/real(strips, wp)
+    ends = from + real(strip - 1, wp)*(width + cut) + [0.0_wp, width]
+  end function strip_ends
 
   !> Reads `&pads` into the bearing; without it the bearing has the one pad of `&bearing`.
   subroutine read_pads_case(keys, bearing, misplaced)

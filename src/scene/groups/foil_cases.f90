@@ -6,7 +6,7 @@ module gfb_foil_cases
                            rule_type, unless, at_least, from_to, not_negative
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text, join
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_length
+  use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner
   implicit none (type, external)
@@ -82,6 +82,8 @@ module gfb_foil_cases
     real(wp) :: width = 0.0_wp              !! of a strip, along the axis [m]
     integer :: strips = 1                   !! side by side along the axis
     real(wp) :: cut_width = 0.0_wp          !! between two of them [m]
+    !> of the fixed edge of a journal, from the edge of the pad; of the leading end of a sector's
+    !> strip, from the end of its ramp
     type(size_type) :: offset = size_type('offset', 'of the fixed edge, from the edge of the pad')
     integer :: fixed_edge = fixed_edge_trailing
     integer :: fixed_line = fixed_line_corner
@@ -367,7 +369,7 @@ contains
     if (needs%bumps .and. .not. needs%width) foil%width = bearing%length
     call keys%real_key('width', foil%width, 'm', 'width of the strip, along the axis', positive, &
                        needs%width, default='required for strips; a bearing''s length')
-    call read_cuts(keys, foil, bearing%is_thrust())
+    call read_cuts(keys, foil, bearing)
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'the strip begins at its fixed edge with an arc, a flat, or half a flat')
@@ -384,15 +386,6 @@ contains
                             'on', at_least(0.0_wp), .false., 'from `pitch`')
     call check_geometry(keys, foil, bearing)
   end subroutine read_bump_foil_case
-
-  !> Length of the pad that bumps lie under [m].
-  elemental real(wp) function strip_length(bearing) result(length)
-    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-
-    length = pad_length(bearing)
-    if (bearing%is_thrust()) length = 0.5_wp*(bearing%inner_radius + bearing%radius)* &
-                                      pad_angle(bearing)*(1.0_wp - bearing%ramp_part)
-  end function strip_length
 
   !> What of the sizes and the material that Walowit and Anno's stiffness follows from is not given;
   !> empty where all is.
@@ -422,13 +415,14 @@ contains
   end function missing_of_bumps
 
   !> Reads how the strip is cut into strips side by side.
-  subroutine read_cuts(keys, foil, thrust)
+  subroutine read_cuts(keys, foil, bearing)
     type(case_keys_type), intent(inout) :: keys
     type(bump_foil_case_type), intent(inout) :: foil
-    logical, intent(in) :: thrust !! a single strip may begin behind the ramp
+    type(bearing_case_type), intent(in) :: bearing
     character(len=:), allocatable :: useless
     real(wp) :: strip !! width of each [m]
     logical :: right
+    integer :: i
 
     call keys%integer_key('strips', foil%strips, 'strips side by side along the axis, '// &
                           'cut apart; the width is that of all with the cuts', &
@@ -444,10 +438,18 @@ contains
     call foil%half_length%read_by_strip(keys, foil%strips, positive, useless)
     call foil%height%read_by_strip(keys, foil%strips, positive, useless)
     call foil%thickness%read_by_strip(keys, foil%strips, positive, useless)
-    if (thrust) useless = ''
+    if (bearing%is_thrust()) useless = '' ! a single strip may begin behind the ramp
     call foil%offset%read_by_strip(keys, foil%strips, not_negative, useless, &
                                    '0: strips begin at the edge of the pad, or its ramp''s end')
-    if (.not. right .or. .not. foil%width > 0.0_wp) return
+    if (.not. right) return
+    if (bearing%is_thrust() .and. foil%strips > 1 .and. foil%bumps > 0 .and. &
+        .not. (keys%holds(group, 'pitch') .or. keys%holds(group, 'strip_pitch'))) then
+      foil%pitch%by_strip = [(sum(strip_ends(bearing, foil%strips, foil%cut_width, i)), &
+                              i=1, foil%strips)]
+      foil%pitch%by_strip = foil%pitch%value*foil%pitch%by_strip/(bearing%inner_radius + &
+                                                                  bearing%radius)
+    end if
+    if (.not. foil%width > 0.0_wp) return
     strip = solid_width(foil)/real(foil%strips, wp)
     if (foil%cut_width < strip) return
     call keys%complain(group, 'cut_width', 'must be less than the width of a strip, '// &

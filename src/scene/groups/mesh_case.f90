@@ -6,7 +6,7 @@ module gfb_mesh_case
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type
-  use gfb_model_case, only: foil_plate, model_case_type, meshes_foils
+  use gfb_model_case, only: model_case_type, meshes_foils, meshes_top_foil
   implicit none (type, external)
   private
   public :: solver_case_type, read_solver_case, mesh_case_type, read_mesh_case
@@ -158,7 +158,7 @@ contains
     type(model_case_type), intent(in) :: model !! what `&model` asks for
 
     radius = bearing%radius
-    if (.not. (bearing%is_thrust() .and. model%foil == foil_plate)) return
+    if (.not. (bearing%is_thrust() .and. meshes_top_foil(model%foil))) return
     radius = 0.5_wp*(bearing%inner_radius + bearing%radius)
   end function foil_radius
 
@@ -184,7 +184,7 @@ contains
       return
     end if
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
-    if (bearing%is_thrust() .and. model%foil == foil_plate) then
+    if (bearing%is_thrust() .and. meshes_top_foil(model%foil)) then
       elements = max(elements, elements_of_sector)
     end if
   end function elements_along_pad

@@ -106,7 +106,7 @@ contains
              plan%circumferential*plan%order >= 2*least_circumferential) then
       small%mesh%circumferential_elements = scene%mesh%circumferential_elements/2
       small_plan%circumferential = small%mesh%circumferential_elements
-      if (scene%mesh%align_crests) small_plan%circumferential = size(plate_stations(small)) - 1
+      if (scene%mesh%align_crests .and. .not. scene%bearing%is_thrust()) small_plan%circumferential = size(plate_stations(small)) - 1
       found = small_plan%circumferential < plan%circumferential
     else
       found = .false.

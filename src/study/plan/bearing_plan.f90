@@ -124,7 +124,8 @@ contains
 
     plan%order = scene%model%film_order
     plan%circumferential = scene%mesh%circumferential_elements
-    if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
+    if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests .and. &
+        .not. scene%bearing%is_thrust()) then
       plan%circumferential = size(plate_stations(scene)) - 1
     end if
     plan%axial = scene%mesh%axial_elements
