@@ -134,7 +134,7 @@ contains
     end do
   end subroutine add_ring
 
-  !> Adds what the crests under a plate carry.
+  !> Adds what the crests carry.
   subroutine add_lines(answer, list)
     type(bearing_answer_type), intent(in) :: answer
     type(quantity_type), allocatable, intent(inout) :: list(:)

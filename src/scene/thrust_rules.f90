@@ -120,7 +120,7 @@ contains
     real(wp) :: last, radius !! where a strip ends [rad], its mean radius [m]
     integer :: strip
 
-    if (.not. (foil%bumps > 0 .and. foil%pitch%value > 0.0_wp .and. bearing%length > 0.0_wp)) return
+    if (foil%bumps == 0 .or. .not. min(foil%pitch%value, bearing%length) > 0.0_wp) return
     if (real(foil%strips - 1, wp)*foil%cut_width >= bearing%length) return
     key = foil%pitch%key_in(keys)
     if (key == 'pitch' .and. .not. keys%holds('bump_foil', 'pitch')) key = 'bumps'

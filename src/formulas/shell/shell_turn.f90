@@ -64,7 +64,7 @@ contains
     end do
   end function shell_turn
 
-  !> A matrix between displacements along the axes of the positions becomes one between the unknowns.
+  !> A matrix between displacements along the axes of the positions becomes one between unknowns.
   pure subroutine take_directions(turn, matrix)
     type(shell_turn_type), intent(in) :: turn !! with the nodes' directions
     real(wp), intent(inout) :: matrix(shell_unknowns, shell_unknowns) !! stiffness, symmetric
@@ -131,7 +131,8 @@ contains
     moved = displacement
     do a = 1, merge(shell_nodes, 0, turn%is_turned)
       associate (first => node_unknowns*(a - 1))
-        moved(first + 1:first + 3) = matmul(turn%direction(:, :, a), displacement(first + 1:first + 3))
+        moved(first + 1:first + 3) = &
+          matmul(turn%direction(:, :, a), displacement(first + 1:first + 3))
       end associate
     end do
     do a = 1, shell_nodes
@@ -165,7 +166,8 @@ contains
     end do
     do a = 1, merge(shell_nodes, 0, turn%is_turned)
       associate (first => node_unknowns*(a - 1))
-        generalized(first + 1:first + 3) = matmul(generalized(first + 1:first + 3), turn%direction(:, :, a))
+        generalized(first + 1:first + 3) = &
+          matmul(generalized(first + 1:first + 3), turn%direction(:, :, a))
       end associate
     end do
   end function shell_generalized

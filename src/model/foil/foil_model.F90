@@ -13,7 +13,7 @@ module gfb_foil_model
   use gfb_quantity, only: quantity_type
   use gfb_cost_events, only: cost_events_type
   use gfb_bump_contacts, only: contact_top
-  use gfb_contact_law, only: state_open
+  use gfb_contact_law, only: state_open, normal_force
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_condensed_piece, only: condensed_piece_type
@@ -41,6 +41,7 @@ module gfb_foil_model
     real(wp), allocatable :: origin(:)         !! x_0, the unknown's value without deflection
     type(contact_set_type) :: contacts         !! this rank's; their unknowns are the local foil unknowns
     real(wp) :: first_hardness = 1.0_wp        !! factor of their stiffness that a first answer begins with
+    integer :: crests = 0                      !! of the pad whose forces are counted
     real(wp) :: modulus(2) = 1.0_wp            !! Young's, of top foil and bumps, over those that the foil was built with [1]
   contains
     procedure :: add_residual, add_jacobian, add_constant, add_load_rates, estimate, is_meshed, soften, add_modulus_rates
@@ -304,12 +305,24 @@ contains
     end do
   end function crest_lengths
 
-  !> This rank's share of the force of each line of springs on the foil; none where there are no lines.
+  !> This rank's share of the forces with which the crests of one number push the top foil, those of all strips together; none
+  !> where they are not counted.
   function line_forces(self, unknown) result(force)
     class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the pad, in SI
     real(wp), allocatable :: force(:) !! [N]
-    allocate (force(0))
+    real(wp) :: approach(3), here, slope
+    integer :: i
+
+    allocate (force(self%crests), source=0.0_wp)
+    do i = 1, merge(size(self%contacts%point), 0, self%crests > 0)
+      if (self%contacts%point(i)%law /= contact_top) cycle
+      approach = self%contacts%approach(i, self%own_part(unknown))
+      associate (point => self%contacts%point(i))
+        call normal_force(self%contacts%law_of(point), point%length, approach(3), here, slope)
+        force(point%line) = force(point%line) + here
+      end associate
+    end do
   end function line_forces
 
   !> The fraction of the path between two states, or on beyond, after which the first of this rank's

@@ -20,7 +20,7 @@ module gfb_plate_foil
   use gfb_shell_geometry, only: node_unknowns, shell_unknowns
   use gfb_shell_mass, only: shell_mass
   use gfb_condensed_piece, only: condensed_piece_type
-  use gfb_contact_law, only: contact_law_type, normal_force
+  use gfb_contact_law, only: contact_law_type
   use gfb_contact_point, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, contact_top
   use gfb_foil_surface, only: foil_surface_type
@@ -40,10 +40,8 @@ module gfb_plate_foil
     type(foil_structure_type) :: top
     logical :: at_points = .false. !! springs do not stand at rows of nodes
     logical :: two_sided = .false. !! springs hold the plate both ways: nothing opens
-    integer :: crests = 0          !! of the pad
   contains
     procedure :: add_springs => add_plate_springs
-    procedure :: line_forces => plate_line_forces
     procedure :: has_contacts => plate_has_contacts
     procedure :: add_mass => add_plate_mass
     procedure :: natural_numbers => plate_natural_numbers
@@ -233,24 +231,6 @@ contains
       crest_distance = film%surface%radius*arc/real(maxval(lines%number), wp)
     end associate
   end function crest_distance
-
-  !> Forces of each crest's springs on the plate, of this rank's share [N].
-  function plate_line_forces(self, unknown) result(force)
-    class(plate_foil_type), intent(in) :: self !! the plate
-    real(wp), intent(in) :: unknown(:) !! local unknowns of the pad [SI]
-    real(wp), allocatable :: force(:)
-    real(wp) :: approach(axial), here, slope
-    integer :: i
-
-    allocate (force(self%crests), source=0.0_wp)
-    do i = 1, size(self%contacts%point)
-      approach = self%contacts%approach(i, self%own_part(unknown))
-      associate (point => self%contacts%point(i))
-        call normal_force(self%contacts%law_of(point), point%length, approach(axial), here, slope)
-        force(point%line) = force(point%line) + here
-      end associate
-    end do
-  end function plate_line_forces
 
   !> Stiffness of the springs, as they are linearised.
   subroutine add_plate_springs(self, matrix)

@@ -323,6 +323,7 @@ contains
       foil%contacts%point = point(:found)
     end associate
     call find_masters_of_crests(height, film, ranges, foil)
+    if (film%surface%is_ring()) foil%crests = scene%bump_foil%bumps
   end subroutine add_shell_contacts
 
   !> Contacts of a line's own nodes that are not fixed everywhere.

@@ -48,7 +48,7 @@ module gfb_foil_mesh
     logical :: mirrored = .false.            !! the fixed edge is the one at the largest x
     real(wp) :: edge = 0.0_wp                !! x of the fixed edge [m]
     real(wp) :: ring_radius = 0.0_wp         !! of a sector, where x is measured; 0: none [m]
-    real(wp) :: mean_radius = 0.0_wp         !! of a sector's strip, where bumps have their sizes [m]
+    real(wp) :: mean_radius = 0.0_wp         !! of a sector's strip: its sizes are there [m]
     integer :: arc_elements = 12             !! even, so that a node lies on the crest
     integer :: flat_elements = 3
   end type strip_shape_type
@@ -231,7 +231,8 @@ contains
     type(station_type), allocatable :: station(:)
 
     station = strip_stations(shape)
-    mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half, window, shape%mean_radius)
+    mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half, window, &
+                        shape%mean_radius)
     mesh%ring_radius = shape%ring_radius
     call name_sets(mesh, station, shape)
   end function bump_strip_mesh
@@ -413,7 +414,8 @@ contains
   end subroutine add_flat
 
   !> Nodes, elements and directors over stations and rows.
-  pure function station_mesh(station, edge, mirrored, rows, half, window, mean_radius) result(mesh)
+  pure function station_mesh(station, edge, mirrored, rows, half, window, mean_radius) &
+    result(mesh)
     type(station_type), intent(in) :: station(:)
     real(wp), intent(in) :: edge     !! x of the first station [m]
     logical, intent(in) :: mirrored  !! stations run towards smaller x

@@ -76,14 +76,15 @@ contains
     small%mesh%axial_elements = small_plan%axial
   end subroutine find_between
 
-  !> Whether half the width has the answer too: of foils, where the sweep alone tilts.
+  !> Whether half the width has the answer too: of foils, where the sweep alone tilts; never of a sector.
   pure logical function can_halve(scene, plan, target) result(can)
     type(scene_type), intent(in) :: scene
     type(bearing_plan_type), intent(in) :: plan
     type(operating_point_type), intent(in) :: target
 
     can = meshes_foils(scene%model%foil) .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
-      modulo(plan%axial, 2) == 0 .and. scene%thermal%mirrors() .and. .not. any(abs(target%place(4:5)) > 0.0_wp)
+      modulo(plan%axial, 2) == 0 .and. scene%thermal%mirrors() .and. .not. any(abs(target%place(4:5)) > 0.0_wp) .and. &
+      .not. scene%bearing%is_thrust()
   end function can_halve
 
   !> Few rows, or else half the stations of film and top foil; a fixed shaft, which cannot give way where the foil deflects

@@ -241,7 +241,8 @@ contains
     type(path_report_type), intent(in) :: report !! of the starts before
 
     suits = problem%bearing%floats .and. meshes_foils(problem%scene%model%foil) .and. .not. &
-      (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction)
+      (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction .or. &
+       problem%scene%bearing%is_thrust())
     if (suits) suits = has_free_edge(problem%bearing)
   end function suits_lighter_load
 
