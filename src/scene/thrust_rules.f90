@@ -132,8 +132,8 @@ contains
         + (one%offset%value + sum(one%pitch%each(one%bumps)))/radius
       if (last <= pad_angle(bearing)*(1.0_wp + rounding)) cycle
       call keys%complain('bump_foil', key, 'strip '//text(strip)//' of '//text(foil%strips)// &
-                         ' ends at '//text(last*degrees, 4)//' deg, past the edge of the pad at '// &
-                         text(pad_angle(bearing)*degrees, 4)//' deg: it has '// &
+                         ' ends at '//text(last*degrees, 4)//' deg, past the edge of the '// &
+                         'pad at '//text(pad_angle(bearing)*degrees, 4)//' deg: it has '// &
                          text(one%bumps)//' bumps of the pitch '//text(one%pitch%value)// &
                          ' m at its mean radius '//text(radius)//' m, behind the ramp')
       return

@@ -170,6 +170,12 @@ SCENES = [
     Scene("thrust bearing, plates under a moment", merged(PADS, operation={"moment": (0.05, 0.02)}), FOILS, ranks=(1, 4), memory=True),
     Scene("thrust bearing, plates at points, small vibrations", merged(PADS, scene={"analysis": "linear_dynamics"}, model={
         "spring_pitch": 3.0e-3, "crest_springs": "two_sided"}, rotor={"mass": 3.0}, dynamics=FREQUENCIES), FOILS),
+    Scene("thrust bearing, shells on two strips", merged(PADS, scene={"analysis": "linear_dynamics"}, model={
+        "foil": "shell", "crest_stiffness": None}, bump_foil={
+            "bumps": 3, "pitch": None, "half_length": 1.2e-3, "height": 4.0e-4, "thickness": 1.0e-4, "youngs_modulus": 2.14e11,
+            "poissons_ratio": 0.29, "strips": 2, "cut_width": 1.0e-3}, contact={"friction_top": 0.1, "friction_sleeve": 0.1},
+                                                         mesh={"arc_elements": 6, "flat_elements": 1}, dynamics=FREQUENCIES), FOILS,
+          ranks=(1, 2), memory=True),
     Scene("plate under a journal", merged({name: keys for name, keys in SHELL.items() if name != "contact"}, model={
         "foil": "plate"}, operation={"load": (-1.5, 0.2)}, mesh={"arc_elements": None, "align_crests": None}), FOILS, ranks=(1, 2)),
     Scene("shells, sensitivities", merged(SHELL, sensitivity={

@@ -359,7 +359,8 @@ contains
     end associate
     list(n)%divides = .true.
     station = list(:n)
-    if (shape%ring_radius > 0.0_wp) station%along = shape%ring_radius/shape%mean_radius*station%along
+    if (.not. shape%ring_radius > 0.0_wp) return
+    station%along = shape%ring_radius/shape%mean_radius*station%along
   end function strip_stations
 
   !> Adds the stations of an arc.
@@ -477,7 +478,7 @@ contains
   pure subroutine put_elements(mesh, first, last, normal, lean)
     type(quad_mesh_type), intent(inout) :: mesh
     integer, intent(in) :: first, last       !! stations
-    real(wp), intent(in) :: normal(:, :, :)  !! (2, 2, stations) of the elements before and after [1]
+    real(wp), intent(in) :: normal(:, :, :)  !! (2, 2, stations) of elements before and after [1]
     real(wp), intent(in) :: lean(:)          !! of the rows [1]
     real(wp) :: there(2, 2)
     integer :: i, j, element, here, corner

@@ -6,7 +6,8 @@ module gfb_foil_cases
                            rule_type, unless, at_least, from_to, not_negative
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text, join
-  use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends
+  use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends, &
+                              needs_journal
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner
   implicit none (type, external)
@@ -121,7 +122,7 @@ contains
                          'fixed; of thrust bearings it is leading by default')
     call keys%real_key('free_radius', foil%free_radius, 'm', 'radius of the foil before it is '// &
                        'put in: larger than `radius` presses it on its bumps, smaller lifts it', &
-                       positive, default='`radius`')
+                       positive, default='`radius`', useless=unless(.not. thrust, needs_journal))
   end subroutine read_top_foil_case
 
   !> Curvature of the foil without forces over that of the bore, \( \kappa_0 = 1/R_f - 1/R \).

@@ -1,7 +1,7 @@
-"""Thrust bearings: error against time on several meshes, rigid, on springs and plates, and what more pads and a tilt cost.
+"""Thrust bearings: error against time on several meshes, rigid, on springs, plates and shells, and what more pads and a tilt cost.
 
 The bearing of inputs/thrust_foundation.nml: a rigid one whose gap is held, one on local springs, one on springs under the mean along
-the radius, and one on plates, under 200 N. Errors are those of axial force, or axial gap, and of the axial stiffness against a mesh of
+the radius, one on plates and one on shells, under 200 N. Errors are those of axial force, or axial gap, and of the axial stiffness against a mesh of
 twice the elements each way of the finest. CPU times are those of whole runs less the start of MPI, medians of the rounds.
 """
 
@@ -19,9 +19,13 @@ FINEST = (128, 64, 2)
 SCENES = {"rigid, held": ({"foil": "rigid"}, {"axial_gap": 1.0e-5}, "axial_force"),
           "local springs, 200 N": ({"foundation_pressure": "local"}, {"axial_load": 200.0}, "axial_gap"),
           "radial mean, 200 N": ({"foundation_pressure": "radial_mean"}, {"axial_load": 200.0}, "axial_gap"),
-          "plates, 200 N": ({"foil": "plate", "crest_stiffness": 4.0e7}, {"axial_load": 200.0}, "axial_gap")}
-PLATE = {"top_foil": {"thickness": 1.5e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29},
-         "bump_foil": {"crest_angles": tuple(0.7853981633974483*(number - 0.5)/8.0 for number in range(1, 9))}}
+          "plates, 200 N": ({"foil": "plate", "crest_stiffness": 4.0e7}, {"axial_load": 200.0}, "axial_gap"),
+          "shells, 200 N": ({"foil": "shell"}, {"axial_load": 200.0}, "axial_gap")}
+STEEL = {"youngs_modulus": 2.14e11, "poissons_ratio": 0.29}
+TOP = {"top_foil": {"thickness": 1.5e-4} | STEEL}
+PLATE = TOP | {"bump_foil": {"crest_angles": tuple(0.7853981633974483*(number - 0.5)/8.0 for number in range(1, 9))}}
+STRIP = TOP | {"bump_foil": {"bumps": 6, "half_length": 1.0e-3, "height": 4.0e-4, "thickness": 1.0e-4} | STEEL,
+               "contact": {"friction_top": 0.1, "friction_sleeve": 0.1}}
 HELD, LOADED, FINE = 7, 16, 5  # aims: factorizations of a held gap, of a load on springs, on the finest mesh
 SAME = 1.1  # aim: all aligned pads over one
 HEAD = """# Thrust bearings: error against time
@@ -39,6 +43,9 @@ times are those of whole runs less the start of MPI, medians of the rounds. Orde
 What pads cost, on 32 x 16 biquadratic elements, 200 N on local springs: an aligned runner solves one pad for all, a tilted one each.
 
 {pads}
+A pad of shells at a held gap, 6 bumps, 32 x 16 biquadratic elements, and a journal's of as many nodes:
+
+{beside}
 {missed}
 {program}.
 
@@ -69,16 +76,20 @@ def run(options):
                 rows.append(row_of(scene, mesh, rounds, there, start))
         pads = [(words, [solve(options.gfb, folder, "local springs, 200 N", (32, 16, 2), **more) for _ in range(options.repetitions)])
                 for words, more in (("1 pad", {"count": 1}), ("6 pads, aligned", {}), ("6 pads, tilted", {"tilt": (3.0e-5, 0.0)}))]
+        shells = [(words, [solve_pad(options.gfb, folder, thrust) for _ in range(options.repetitions)])
+                  for words, thrust in (("sector", True), ("journal", False))]
     table = ("CPU times beyond the start of MPI", ["bearing", "elements", "order", "unknowns", "CPU [s]", "force or gap", "K", "factors",
                                                  "finest"], rows)
-    beside = table_of_pads(pads, start)
-    missed = "".join(f"- {words}\n" for words in missed_aims(counts, pads, start))
-    (options.output/"thrust.md").write_text(markdown_table(*table) + markdown_table(*beside) + missed, encoding="utf-8")
+    tables = [table_of_pads(pads, start), table_of_pads(shells, start)]
+    missed = "".join(f"- {words}\n" for words in missed_aims(counts, pads, shells, start))
+    (options.output/"thrust.md").write_text(markdown_table(*table) + "".join(markdown_table(*one) for one in tables) + missed,
+                                            encoding="utf-8")
     if options.docs:
-        head = HEAD.format(repetitions=options.repetitions, finest=FINEST, table=markdown_table(*table), pads=markdown_table(*beside),
+        head = HEAD.format(repetitions=options.repetitions, finest=FINEST, table=markdown_table(*table),
+                           pads=markdown_table(*tables[0]), beside=markdown_table(*tables[1]),
                            program=version_of(options.gfb), missed=f"Missed:\n\n{missed}" if missed else "All aims are met.\n")
         (MEASURED/"bench_thrust.md").write_text(head.rstrip() + "\n", encoding="utf-8")
-    return plain_table(*table) + plain_table(*beside) + missed
+    return plain_table(*table) + "".join(plain_table(*one) for one in tables) + missed
 
 
 def solve(gfb, folder, scene, mesh, count=6, tilt=None):
@@ -92,7 +103,27 @@ def solve(gfb, folder, scene, mesh, count=6, tilt=None):
               "gas": {"viscosity": 1.85e-5, "ambient_pressure": 101325.0},
               "operation": {"speed_rpm": 40000.0} | load | ({"tilt": tilt} if tilt else {}), "dynamics": {"frequency_ratios": 0.25},
               "model": model | {"film_order": mesh[2]} | ({"film_scheme": "galerkin"} if mesh[2] == 1 else {}),
-              "mesh": {"circumferential_elements": mesh[0], "radial_elements": mesh[1]}} | (PLATE if "crest_stiffness" in model else {})
+              "mesh": {"circumferential_elements": mesh[0], "radial_elements": mesh[1]}} | {"plate": PLATE, "shell": STRIP}.get(model["foil"], {})
+    return answer_of(gfb, folder, scene, groups)
+
+
+def solve_pad(gfb, folder, thrust):
+    """The answer of one pad of shells at a held gap: of a sector, or of a journal as long as its middle."""
+    if thrust:
+        held = {"bearing": {"kind": "thrust", "outer_radius": 0.05, "inner_radius": 0.025}, "ramp": {"part": 0.2, "height": 2.0e-5},
+                "operation": {"speed_rpm": 40000.0, "axial_gap": 1.2e-5}, "mesh": {"radial_elements": 16}}
+    else:
+        held = {"bearing": {"radius": 0.0375, "length": 0.025, "clearance": 3.0e-5}, "mesh": {"axial_elements": 16},
+                "operation": {"speed_rpm": 40000.0, "eccentricity": (-1.0e-5, -1.0e-5)}}
+    groups = {"scene": {"analysis": "fixed_position"}, "pads": {"count": 1, "arc": 0.7853981633974483},
+              "gas": {"viscosity": 1.85e-5, "ambient_pressure": 101325.0}, "model": {"foil": "shell", "film_order": 2}} | STRIP | held
+    groups["model"] |= {} if thrust else {"half_width": "no"}
+    groups["mesh"] |= {"circumferential_elements": 32}
+    return answer_of(gfb, folder, "a pad of shells", groups)
+
+
+def answer_of(gfb, folder, scene, groups):
+    """The answer of a case, which has one."""
     answer = run_file(gfb, write_case(folder, "thrust", groups), folder)
     if answer.status != 0:
         stop(f"{scene}: gfb ended with status {answer.status}:\n{answer.log}{answer.complaint}", 3)
@@ -114,14 +145,16 @@ def time_of(rounds, start):
 
 def table_of_pads(pads, start):
     """Title, heads and rows."""
-    rows = [[words, f"{rounds[0]['unknowns']:,.0f}", f"{time_of(rounds, start):.2f}", f"{rounds[0]['factorizations']:.0f}"]
-            for words, rounds in pads]
-    return "Pads", ["runner", "unknowns", "CPU [s]", "factors"], rows
+    rows = [[words, f"{rounds[0]['unknowns']:,.0f}", f"{time_of(rounds, start):.2f}", f"{rounds[0]['factorizations']:.0f}",
+             f"{rounds[0]['newton_iterations']:.0f}"] for words, rounds in pads]
+    return "Pads", ["pads", "unknowns", "CPU [s]", "factors", "iterations"], rows
 
 
-def missed_aims(counts, pads, start):
+def missed_aims(counts, pads, shells, start):
     """A sentence for every aim that is missed, on the default mesh."""
     for (scene, mesh), answer in counts.items():
+        if SCENES[scene][0].get("foil") == "shell":  # the aims are those of films on springs
+            continue
         aim = HELD if "axial_gap" in SCENES[scene][1] else LOADED
         found = answer["factorizations"] - 1.0  # without that of the vibration
         if mesh == (32, 16, 2) and found > aim:
@@ -131,3 +164,6 @@ def missed_aims(counts, pads, start):
     one, every = (time_of(rounds, start) for _, rounds in pads[:2])
     if every > SAME*one:
         yield f"6 aligned pads: {every/one:.2f} times one; the aim is {SAME:g}"
+    sector, journal = (time_of(rounds, start)/rounds[0]["newton_iterations"] for _, rounds in shells)
+    if sector > SAME*journal:
+        yield f"an iteration of a sector's shells: {sector/journal:.2f} times that of a journal's; the aim is {SAME:g}"

@@ -1,4 +1,4 @@
-"""Films and top foils of thrust bearings: their fields on the sectors, as they lie in the plane across the axis."""
+"""Films and foils of thrust bearings: their fields on the sectors, as they lie in the plane across the axis."""
 
 import numpy
 from matplotlib import pyplot
@@ -12,9 +12,9 @@ FLATTEST = 0.25  # of a box over its longest side
 
 
 def is_ring(file):
-    """Whether an open film or foil file is one of sectors in a plane across the axis."""
+    """Whether an open film or foil file is one of sectors across the axis; bumps are higher than flat, but less than they are wide."""
     points = file["VTKHDF/Points"]
-    return bool(numpy.ptp(points[:, 1]) > 0.0 and not numpy.ptp(points[:, 2]) > 0.0)
+    return bool(numpy.ptp(points[:, 1]) > numpy.ptp(points[:, 2]))
 
 
 def sectors_of(file):
@@ -61,7 +61,7 @@ def draw_ring(path, file):
 
 
 def draw_foil(path, file):
-    """A pad's top foil: how far it is away from where it rests, with the crests that it touches, and its shape in space."""
+    """A pad's foil: how far it is away from where it rests, with the lines that touch, and its shape in space."""
     shape = shape_of(path, file)
     fields, points = file["VTKHDF/PointData"], 1.0e3*file["VTKHDF/Points"][...].reshape(shape)
     moved = fields["displacement"][...].reshape(shape)[:, :, 2]
@@ -73,7 +73,7 @@ def draw_foil(path, file):
     draw_outline(chart, points)
     words = "deflection away from the runner [um]"
     if "contact_state" in fields:
-        words += "; dashed: crests that push"
+        words += "; dashed: " + ("lines that touch" if numpy.ptp(points[:, :, 2]) > 0.0 else "crests that push")
         touches = fields["contact_state"][...].reshape(shape[:2]) > 0.0
         for station in numpy.flatnonzero(touches.any(axis=1)):
             x, y = (numpy.where(touches[station], points[station, :, axis], numpy.nan) for axis in (0, 1))
@@ -90,8 +90,10 @@ def draw_foil(path, file):
 def draw_in_space(chart, points, moved, colours):
     """The deflected foil, the runner above it; along the axis it is moved further than it moves."""
     largest, side = 1.0e3*float(numpy.abs(moved).max()), float(numpy.ptp(points[:, :, :2], axis=(0, 1)).max())
-    scale = round_scale(TRAVEL*side/largest) if largest > 0.0 else 1.0
-    x, y, z = points[:, :, 0], points[:, :, 1], 1.0e3*scale*moved
+    high = float(numpy.ptp(points[:, :, 2]))
+    travel = 0.5*high if high > 0.0 else TRAVEL*side  # of bumps, over their height
+    scale = round_scale(travel/largest) if largest > 0.0 else 1.0
+    x, y, z = points[:, :, 0], points[:, :, 1], points[:, :, 2] + 1.0e3*scale*moved
     values = -1.0e6*moved
     inside = 0.25*(values[1:, 1:] + values[:-1, 1:] + values[1:, :-1] + values[:-1, :-1])
     chart.plot_surface(x, y, z, facecolors=colours.to_rgba(inside), rstride=1, cstride=1, linewidth=0.0, antialiased=False, shade=False)

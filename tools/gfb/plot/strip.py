@@ -11,6 +11,7 @@ from gfb.tool import stop
 
 MICRO = 1.0e6
 MILLI = 1.0e3
+FORCE = "history/axial_force"  # of thrust bearings
 KINDS = ("bumps", "loop", "contact")
 STATES = ("open", "sticks", "slips")
 STATE_COLOURS = ("0.85", "C0", "C1")
@@ -31,7 +32,7 @@ def is_strip(file):
 
 def is_bearing(file):
     """Whether a case file is of a bearing on foils with contacts."""
-    return "history/eccentricity_x" in file and any(f"contact/{name}/state" in file for name in SURFACES)
+    return any(f"history/{name}" in file for name in ("eccentricity_x", "axial_gap")) and any(f"contact/{name}/state" in file for name in SURFACES)
 
 
 def draw(paths, files, kind, steps):
@@ -75,7 +76,7 @@ def row_of(path, file, step):
 def steps_of(file):
     """Numbers of a strip's load steps or of a bearing's sweep points."""
     if is_bearing(file):
-        return numpy.arange(1, len(file["history/force_x"]) + 1)
+        return numpy.arange(1, len(file[FORCE if FORCE in file else "history/force_x"]) + 1)
     return numpy.rint(file["history/step"][...]).astype(int)
 
 
@@ -83,8 +84,9 @@ def words_of(file, row):
     """A row in words: which it is, and its load."""
     if not is_bearing(file):
         return f"step {int(file['history/step'][row])}, {file['history/force'][row]:.4g} N"
-    force = f"{numpy.hypot(file['history/force_x'][row], file['history/force_y'][row]):.4g} N"
-    return force if len(file["history/force_x"]) == 1 else f"point {row + 1}, {force}"
+    forces = [file[name] for name in ((FORCE,) if FORCE in file else ("history/force_x", "history/force_y"))]
+    words = f"{numpy.linalg.norm([force[row] for force in forces]):.4g} N"
+    return words if len(forces[0]) == 1 else f"point {row + 1}, {words}"
 
 
 def name_of(path):
@@ -238,7 +240,7 @@ def draw_contact(path, file, steps):
     stacked = sum(wide) > MOST_BESIDE
     for charts in axes:
         for chart in charts if stacked else charts[:1]:
-            chart.set_ylabel("z [mm]")
+            chart.set_ylabel("radius [mm]" if "history/axial_gap" in file else "z [mm]")
     for chart, name in zip(axes[-1], surfaces):
         chart.set_xlabel(f"number along x of the{' ' if stacked else chr(10)}{SURFACES[name]}", fontsize=9)
     figure.legend(handles=[patches.Patch(color=colour, label=word) for word, colour in zip(STATES, STATE_COLOURS)],
@@ -287,7 +289,7 @@ def line_table(group):
         stop("contact lines of different lengths cannot be drawn")
     node = numpy.array(nodes)
     z = position[node[0]]
-    if z[0] >= 0.0 and len(z) > 1:
+    if z[0] >= 0.0 and len(z) > 1 and "axial_gap" not in group.file.get("history", ()):
         z = numpy.concatenate((-z[:0:-1], z))
         node = numpy.concatenate((node[:, :0:-1], node), axis=1)
     return numbers, z, node
