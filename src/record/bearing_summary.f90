@@ -71,7 +71,7 @@ contains
     call add_result(list, 'minimum_pressure', answer%minimum_pressure)
     call add_result(list, 'maximum_peclet', answer%maximum_peclet)
     if (allocated(answer%pad_gap)) call add_pads(answer, list)
-    if (answer%heat%present) call add_heat(answer%heat, list)
+    if (answer%heat%present) call add_heat(answer%heat, .true., list)
     if (answer%has_foils) then
       call add_result(list, 'leading_edge_lift', answer%leading_edge_lift(1))
       call add_result(list, 'leading_edge_lift_edge', answer%leading_edge_lift(2))
@@ -120,6 +120,7 @@ contains
         call add_result(list, 'lifted_length', answer%lifted_length)
       end if
       call add_result(list, 'maximum_peclet', answer%maximum_peclet)
+      if (answer%heat%present) call add_heat(answer%heat, .false., list)
       call add_result(list, 'pads_solved', ring%pads_solved)
     end associate
     call add_lines(answer, list)
@@ -166,8 +167,9 @@ contains
   end subroutine add_loads
 
   !> Adds temperatures, and where the heat goes.
-  subroutine add_heat(heat, list)
+  subroutine add_heat(heat, grows, list)
     type(heat_answer_type), intent(in) :: heat
+    logical, intent(in) :: grows !! there is a clearance, which may
     type(quantity_type), allocatable, intent(inout) :: list(:)
     integer :: i
 
@@ -190,7 +192,7 @@ contains
       call add_result(list, 'mass_flow_leading_edge', whole%leading)
       call add_result(list, 'mass_flow_trailing_edge', whole%trailing)
       call add_result(list, 'mass_flow_sides', whole%sides)
-      call add_result(list, 'running_clearance', heat%running_clearance)
+      if (grows) call add_result(list, 'running_clearance', heat%running_clearance)
       call add_result(list, 'energy_imbalance', heat%imbalance)
       if (heat%softens) call add_moduli('', whole)
     end associate
@@ -303,7 +305,7 @@ contains
     end if
     call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
                   '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
-    if (answer%heat%present) call show_heat(log, answer%heat)
+    if (answer%heat%present) call show_heat(log, answer%heat, .not. answer%ring%present)
     call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
     call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
                   text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
@@ -394,9 +396,10 @@ contains
   end subroutine show_journal
 
   !> Where the heat goes, and how hot all is.
-  subroutine show_heat(log, heat)
+  subroutine show_heat(log, heat, grows)
     type(run_log_type), intent(in) :: log
     type(heat_answer_type), intent(in) :: heat
+    logical, intent(in) :: grows !! there is a clearance, which may
     character(len=:), allocatable :: words
 
     associate (whole => heat%whole)
@@ -417,8 +420,8 @@ contains
       if (heat%has_cooling) then
         call log%line('cooling gas      leaves at '//kelvin(heat%cooling_outlet_temperature)//' K')
       end if
-      call log%line('clearance        '//engineering_text(heat%running_clearance, 'um', &
-                                                          1.0e6_wp)//' when it runs')
+      if (grows) call log%line('clearance        '//engineering_text(heat%running_clearance, &
+                                                          'um', 1.0e6_wp)//' when it runs')
       if (heat%softens) then
         words = ''
         if (heat%top_foil_bends) words = text(whole%modulus(1), 4)//' in the top foil, '

@@ -45,7 +45,7 @@ module gfb_bearing_heat
     real(wp) :: channel_sleeve = 0.0_wp !! sleeve to it [W/(m2 K)]
     real(wp) :: cooling = 0.0_wp     !! w c_p of it [W/K]
     real(wp) :: cooling_temperature = 0.0_wp !! where it enters [K]
-    real(wp) :: arc = 0.0_wp         !! of all pads together [m]
+    real(wp) :: arc = 0.0_wp         !! of all pads together, of sectors outside [m]
     type(modulus_law_type) :: modulus !! of the foils over their temperature
     integer, allocatable :: first(:) !! local unknowns of the bearing before those of each pad
     integer :: first_wall = 0        !! the same of the walls

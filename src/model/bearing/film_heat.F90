@@ -97,7 +97,7 @@ contains
             mass(:, b) = mass(:, b) + area*shape(b)*shape
             slopes(:, b) = slopes(:, b) + area*(x(b)*x + z(b)*z)
             along(:, b) = along(:, b) + area*z(b)*z
-            carried(:, b) = carried(:, b) + area*z(b)*shape
+            carried(:, b) = carried(:, b) + area/geometry%stretch(i)*z(b)*shape ! all around the axis it is one gas
           end do
         end associate
       end do

@@ -77,13 +77,12 @@ contains
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical, intent(in) :: thrust !! the pads are sectors of a ring
     integer, intent(in) :: analysis !! 0 where it is not known
-    character(len=:), allocatable :: misplaced
+    character(len=:), allocatable :: journal !! why keys of one have no use
     logical :: given(3)
 
-    misplaced = misplaced_group(analysis, is_bearing(analysis))
-    if (misplaced == '') misplaced = unless(.not. thrust, needs_journal)
+    journal = unless(.not. thrust, needs_journal)
     call keys%start_group('thermal', optional=.true., present_in_file=thermal%present, &
-                          misplaced=misplaced)
+                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
     if (gas%temperature > 0.0_wp) thermal%ambient_temperature = gas%temperature
     call keys%real_key('ambient_temperature', thermal%ambient_temperature, 'K', 'temperature '// &
                        'of the gas that is drawn in', from_to(coldest, hottest), &
@@ -95,11 +94,14 @@ contains
     call keys%real_key('carry_over', thermal%carry_over, '1', 'part of the outflow of a '// &
                        'trailing edge that enters the next leading edge', from_to(0.0_wp, 1.0_wp))
     call keys%choice_key('shaft', thermal%shaft, wall_words, 'shaft of one temperature, given '// &
-                         'or such that its heat goes to a far place; or a fin along its axis')
+                         'or such that its heat goes to a far place; or a fin along its axis; '// &
+                         'of thrust bearings the runner')
+    call keys%rule('thermal', 'shaft', thrust .and. thermal%shaft == wall_fin, "must be "// &
+                   "'given' or 'conductance' with kind = 'thrust' in &bearing")
     call read_place(keys, 'shaft', thermal%shaft, thermal%ambient_temperature, &
                     thermal%shaft_temperature, thermal%shaft_conductance, &
                     thermal%shaft_far_temperature)
-    call read_fin(keys, thermal)
+    call read_fin(keys, thermal, journal)
     call read_foil(keys, thermal, foil, gas%viscosity*thermal%specific_heat/thermal%prandtl)
     call keys%choice_key('sleeve', thermal%sleeve, wall_words(:wall_conductance), 'sleeve of '// &
                          'one temperature, given or such that its heat goes to a far place')
@@ -107,19 +109,21 @@ contains
                     thermal%sleeve_temperature, thermal%sleeve_conductance, &
                     thermal%sleeve_far_temperature)
     call keys%real_key('shaft_expansion', thermal%shaft_expansion, '1/K', &
-                       'thermal expansion of the shaft', not_negative)
+                       'thermal expansion of the shaft', not_negative, useless=journal)
     call keys%real_key('sleeve_expansion', thermal%sleeve_expansion, '1/K', &
-                       'thermal expansion of the sleeve', not_negative)
+                       'thermal expansion of the sleeve', not_negative, useless=journal)
     thermal%reference_temperature = thermal%ambient_temperature
     call keys%real_key('reference_temperature', thermal%reference_temperature, 'K', 'at which '// &
                        '`clearance` is that of rest', from_to(coldest, hottest), default=ambient)
     call keys%real_key('shaft_density', thermal%shaft_density, 'kg/m^3', 'density of a shaft '// &
-                       'that grows with its speed', positive, default=no_default, given=given(1))
+                       'that grows with its speed', positive, default=no_default, given=given(1), &
+                       useless=journal)
     call keys%real_key('shaft_youngs_modulus', thermal%shaft_youngs_modulus, 'Pa', "Young's "// &
-                       'modulus of that shaft', positive, default=no_default, given=given(2))
+                       'modulus of that shaft', positive, default=no_default, given=given(2), &
+                       useless=journal)
     call keys%real_key('shaft_poissons_ratio', thermal%shaft_poissons_ratio, '1', "Poisson's "// &
                        'ratio of that shaft', between(-1.0_wp, 0.5_wp), default=no_default, &
-                       given=given(3))
+                       given=given(3), useless=journal)
     thermal%centrifugal = all(given)
     call read_modulus(keys, thermal)
   end subroutine read_thermal_case
@@ -209,22 +213,24 @@ contains
   end subroutine read_place
 
   !> A shaft that is a fin.
-  subroutine read_fin(keys, thermal)
+  subroutine read_fin(keys, thermal, useless)
     type(case_keys_type), intent(inout) :: keys
     type(thermal_case_type), intent(inout) :: thermal
+    character(len=*), intent(in) :: useless !! why its keys have no use
 
     call keys%real_key('shaft_conductivity', thermal%shaft_conductivity, 'W/(m K)', &
-                       'conductivity of a shaft that is a fin', positive)
+                       'conductivity of a shaft that is a fin', positive, useless=useless)
     call keys%real_key('shaft_inner_radius', thermal%shaft_inner_radius, 'm', 'of a hollow '// &
-                       'shaft: of a fin, or one that grows with its speed', not_negative)
+                       'shaft: of a fin, or one that grows with its speed', not_negative, &
+                       useless=useless)
     call keys%real_vector_key('shaft_end_conductance', thermal%shaft_end_conductance, 'W/K', &
                               'from the ends of a fin, at -L/2 and +L/2, to far places; 0: '// &
                               'insulated', not_negative, thermal%shaft == wall_fin, &
-                              "required with `shaft = 'fin'`")
+                              "required with `shaft = 'fin'`", useless=useless)
     if (thermal%shaft == wall_fin) thermal%shaft_end_temperature = thermal%ambient_temperature
     call keys%real_vector_key('shaft_end_temperature', thermal%shaft_end_temperature, 'K', &
                               'temperatures of these places', from_to(coldest, hottest), &
-                              default=ambient)
+                              default=ambient, useless=useless)
   end subroutine read_fin
 
   !> Top foil, the bumps under it, and what cools them.
@@ -252,7 +258,8 @@ contains
     thermal%bump_conductance_estimated = known .and. (keys%key%is_default .or. &
                                                       .not. keys%key%given)
     call keys%real_key('cooling_flow', thermal%cooling_flow, 'kg/s', 'of gas that is blown '// &
-                       'along the bumps of this bearing, to +z; 0: none', not_negative)
+                       'along the bumps of this bearing, to +z, of thrust bearings '// &
+                       'outwards; 0: none', not_negative)
     call keys%real_key('channel_conductance', thermal%channel_conductance, 'W/(m^2 K)', &
                        'from top foil to cooling gas, of an area', not_negative)
     ! A flow of zero in a sweep over it leaves the channel, where its other keys are given.
@@ -260,7 +267,7 @@ contains
       keys%holds('thermal', 'cooling_temperature')
     if (cooled) thermal%cooling_temperature = thermal%ambient_temperature
     call keys%real_key('cooling_temperature', thermal%cooling_temperature, 'K', 'of that gas '// &
-                       'where it enters, at -L/2', from_to(coldest, hottest), default=ambient)
+                       'where it enters, at -L/2 or inside', from_to(coldest, hottest), default=ambient)
     if (cooled .and. foil%height%value > 0.0_wp) then
       thermal%channel_sleeve_conductance = channel_nusselt*conductivity/foil%height%value
     end if

@@ -199,7 +199,7 @@ contains
       do i = 1, size(bearing%pad)
         associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
           by_gap(first:last, place_torque) = by_gap(first:last, place_torque) + pad%film%surface%radius*pad%contact%friction* &
-            nodal_areas(pad)*contact_pressure_rate(pad%contact, gap(first:last))
+            nodal_levers(pad)*contact_pressure_rate(pad%contact, gap(first:last))
         end associate
       end do
     end if
@@ -242,7 +242,7 @@ contains
       associate (mine => gradient(pad%first + 1:pad%first + size(gap), place_torque))
         mine = mine + film%surface%radius*by_pressure
       end associate
-      area = nodal_areas(pad)
+      area = nodal_levers(pad)
       by_gap(:, place_torque) = film%surface%radius*(by_node + pad%contact%friction*area*contact_pressure_rate(pad%contact, gap))
       lever = bearing%levers()
       do k = 1, size(bearing%coordinate) ! none of a shaft that is fixed
@@ -372,7 +372,7 @@ contains
     real(wp) :: area(1)
     integer :: i, shaft(1)
 
-    area = sum_over_ranks([sum([(sum(nodal_areas(bearing%pad(i))), i=1, size(bearing%pad))])])
+    area = sum_over_ranks([sum([(film_area(bearing%pad(i)), i=1, size(bearing%pad))])])
     associate (heat => bearing%heat, growth => bearing%point%growth, sleeve => bearing%heat%first_wall + bearing%heat%sleeve_wall())
       gradient(:, through_bumps) = heat%bumps*gradient(:, of_top_foil)
       gradient(:, to_channel) = gradient(:, to_channel) + merge(heat%channel, 0.0_wp, heat%channels > 0)*gradient(:, of_top_foil)
@@ -411,8 +411,8 @@ contains
     end associate
   end subroutine finish_heat
 
-  !> Weights of a field's nodal values in `film_moment`, this rank's share [m2].
-  pure function nodal_areas(pad) result(area)
+  !> Weights of a field's nodal values in `film_moment`, over the film's radius: areas, of sectors times r/R; this rank's share [m2].
+  pure function nodal_levers(pad) result(area)
     type(pad_type), intent(in) :: pad
     real(wp) :: area(size(pad%film%angle))
     integer :: element
@@ -423,7 +423,20 @@ contains
         area(nodes) = area(nodes) + pad%film%copies*matmul(pad%film%shape, geometry%area*geometry%stretch)
       end associate
     end do
-  end function nodal_areas
+  end function nodal_levers
+
+  !> This rank's share of the area of a pad's film, mirrored and turned copies with it [m2].
+  pure real(wp) function film_area(pad) result(area)
+    type(pad_type), intent(in) :: pad
+    integer :: element
+
+    area = 0.0_wp
+    do element = 1, size(pad%film%element_nodes, 2)
+      associate (geometry => pad%film%geometry(element))
+        area = area + pad%film%copies*sum(geometry%area)
+      end associate
+    end do
+  end function film_area
 
   !> The extreme values, on the rank that has their nodes.
   pure subroutine add_extremes(bearing, nodes, gradient, by_gap)
