@@ -304,11 +304,10 @@ def check_onset_with_losses(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
-        check_foil_mass(checks, folder)
-        check_onset_with_losses(checks, folder)
         if "--long" not in sys.argv:
+            check_foil_mass(checks, folder)
+            check_onset_with_losses(checks, folder)
             checks.close()
-            return
         check_growth(checks, folder)
         check_onset(checks, folder)
         check_ring(checks, folder)
