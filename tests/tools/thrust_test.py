@@ -59,7 +59,7 @@ class Run(dict):
     """Results and time."""
 
     def __init__(self, factorizations, cpu=1.0):
-        super().__init__(factorizations=factorizations, factorizations_finest=5.0, unknowns=10.0)
+        super().__init__(factorizations=factorizations, factorizations_finest=5.0, unknowns=10.0, newton_iterations=10.0)
         self.cpu = cpu
 
 
@@ -122,8 +122,11 @@ class ThrustTest(unittest.TestCase):
     def test_aims_that_are_missed_are_named(self):
         mesh = (32, 16, 2)
         pads = [("1 pad", [Run(8.0)]), ("6 pads, aligned", [Run(8.0, 1.2)]), ("6 pads, tilted", [Run(8.0)])]
-        self.assertEqual(list(thrust.missed_aims({("rigid, held", mesh): Run(9.0), ("radial mean, 200 N", mesh): Run(17.0)}, pads, 0.0)), [
-            "rigid, held: 8 factorizations, coarse mesh and all; the aim is 7", "6 aligned pads: 1.20 times one; the aim is 1.1"])
+        shells = [("sector", [Run(8.0, 2.4)]), ("journal", [Run(8.0, 2.0)])]
+        counts = {("rigid, held", mesh): Run(9.0), ("radial mean, 200 N", mesh): Run(17.0), ("shells, 200 N", mesh): Run(30.0)}
+        self.assertEqual(list(thrust.missed_aims(counts, pads, shells, 0.0)), [
+            "rigid, held: 8 factorizations, coarse mesh and all; the aim is 7", "6 aligned pads: 1.20 times one; the aim is 1.1",
+            "an iteration of a sector's shells: 1.20 times that of a journal's; the aim is 1.1"])
 
 
 if __name__ == "__main__":

@@ -96,7 +96,7 @@ contains
     call keys%choice_key('shaft', thermal%shaft, wall_words, 'shaft of one temperature, given '// &
                          'or such that its heat goes to a far place; or a fin along its axis; '// &
                          'of thrust bearings the runner')
-    call keys%rule('thermal', 'shaft', thrust .and. thermal%shaft == wall_fin, "must be "// &
+    call keys%rule('thermal', 'shaft', thrust .and. thermal%shaft == wall_fin, 'must be '// &
                    "'given' or 'conductance' with kind = 'thrust' in &bearing")
     call read_place(keys, 'shaft', thermal%shaft, thermal%ambient_temperature, &
                     thermal%shaft_temperature, thermal%shaft_conductance, &
@@ -267,7 +267,8 @@ contains
       keys%holds('thermal', 'cooling_temperature')
     if (cooled) thermal%cooling_temperature = thermal%ambient_temperature
     call keys%real_key('cooling_temperature', thermal%cooling_temperature, 'K', 'of that gas '// &
-                       'where it enters, at -L/2 or inside', from_to(coldest, hottest), default=ambient)
+                       'where it enters, at -L/2 or inside', from_to(coldest, hottest), &
+                       default=ambient)
     if (cooled .and. foil%height%value > 0.0_wp) then
       thermal%channel_sleeve_conductance = channel_nusselt*conductivity/foil%height%value
     end if

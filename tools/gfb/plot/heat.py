@@ -5,6 +5,7 @@ from matplotlib import pyplot
 
 from gfb.heat import HEATED, balance, temperatures
 from gfb.plot.film import BANDS, ROUND_OFF, around_zero, draw_map, label_theta, mark_load, read_film, readable
+from gfb.plot.ring import draw_ring, is_ring
 from gfb.plot.scene import draw_edges, named, read_scene, round_numbers, scene_of
 from gfb.plot.strip import used_keys
 from gfb.tool import stop
@@ -31,7 +32,11 @@ FLOWS = {"power_loss": ("power loss", "0.3"), "heat_to_shaft": ("into the shaft"
 # --- film ---
 
 def draw_film(path, file):
-    """Maps at the left, lines along midplane and edges at the right, a row a field."""
+    """Maps at the left, lines along midplane and edges at the right, a row a field; of sectors maps alone."""
+    if is_ring(file):
+        if not any(name in file["VTKHDF/PointData"] for name in FIELDS):
+            stop(f"{path}: no temperature in it: the case has no &thermal")
+        return draw_ring(path, file, FIELDS, lambda name, values: look_of(name, *scale_of(values)), scale_of)
     film, scene = read_film(path, file, FIELDS), scene_of(path)
     if not film.fields:
         stop(f"{path}: no temperature in it: the case has no &thermal")
@@ -197,11 +202,13 @@ def draw_sweep(path, file, parameter):
         if name in history:
             line(charts[0], history[name][...], words, look)
     charts[0].set_ylabel("temperature [K]")
-    for name, words, colour in (("running_clearance", "running clearance", "C0"), ("minimum_gap", "thinnest film", "C1")):
-        line(charts[1], 1.0e6*history[name][...], words, {"color": colour, "marker": "o"})
+    for name, words, colour in (("running_clearance", "running clearance", "C0"), ("axial_gap", "axial gap", "C0"),
+                                ("minimum_gap", "thinnest film", "C1")):
+        if name in history:
+            line(charts[1], 1.0e6*history[name][...], words, {"color": colour, "marker": "o"})
     if ("bearing", "clearance") in keys:
         charts[1].axhline(1.0e6*float(keys["bearing", "clearance"][0]), color="0.4", linestyle=":", label="clearance, cold")
-    charts[1].set_ylabel("clearance and film [um]")
+    charts[1].set_ylabel(("gap" if "axial_gap" in history else "clearance") + " and film [um]")
     power = history["power_loss"][...]
     for name, (words, colour) in FLOWS.items():
         if name not in history or not numpy.any(history[name][...]):

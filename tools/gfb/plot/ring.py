@@ -3,7 +3,7 @@
 import numpy
 from matplotlib import pyplot
 
-from gfb.plot.film import BANDS, FIELDS, ROUND_OFF, SIGNED, WORDS, around_zero, readable
+from gfb.plot.film import BANDS, ROUND_OFF, SIGNED, WORDS, around_zero, readable
 from gfb.plot.foil import round_scale, shape_of
 from gfb.plot.scene import round_numbers, scene_of
 
@@ -33,18 +33,23 @@ def draw_outline(chart, points):
     chart.plot(points[0, :, 0], points[0, :, 1], color="k", linewidth=1.4)
 
 
-def draw_ring(path, file):
-    """A map a field, seen from the runner: it turns from x to y."""
+def look_of(name, values):
+    """Colours of a field of the film."""
+    return around_zero(values) if name in SIGNED else {}
+
+
+def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (values.min(), values.max())):
+    """A map a field that has words, seen from the runner: it turns from x to y."""
     fields, points = file["VTKHDF/PointData"], 1.0e3*file["VTKHDF/Points"][...]
-    names = [name for name in FIELDS if name in fields and (name != "deflection" or numpy.any(fields[name]))]
+    names = [name for name in words if name in fields and (name != "deflection" or numpy.any(fields[name]))]
     figure, axes = pyplot.subplots(1, len(names), figsize=(4.6*len(names), 4.8), squeeze=False, layout="constrained")
     sectors = sectors_of(file)
     for chart, name in zip(axes[0], names, strict=True):
         values, unit = readable(fields[name])
-        levels = round_numbers(BANDS).tick_values(values.min(), values.max()) if numpy.ptp(values) > 0.0 else BANDS
-        look = around_zero(values) if name in SIGNED else {}
+        levels = round_numbers(BANDS).tick_values(*bounds(values)) if numpy.ptp(values) > 0.0 else BANDS
+        beyond = "both" if numpy.ptp(bounds(values)) < numpy.ptp(values) else "neither"
         for nodes in sectors:
-            drawn = chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, **look)
+            drawn = chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, extend=beyond, **look(name, values))
             draw_outline(chart, points[nodes])
         if name == "gap":
             thinnest = int(numpy.argmin(values))
@@ -52,7 +57,7 @@ def draw_ring(path, file):
             chart.text(0.5, 0.5, f"thinnest\n{values[thinnest]:.3g} {unit}", transform=chart.transAxes, ha="center", va="center",
                        fontsize=9)
         figure.colorbar(drawn, ax=chart, location="bottom", ticks=round_numbers(6), spacing="proportional")
-        chart.set_title(f"{WORDS[name]} [{unit}]", fontsize=10)
+        chart.set_title(f"{words[name]} [{unit}]", fontsize=10)
         chart.set_aspect("equal")
         chart.set_xlabel("x [mm]")
         chart.set_ylabel("y [mm]")
