@@ -61,6 +61,8 @@ contains
                      scene%shaft_contact%present, 'cannot be carried by flat pads under an '// &
                      'aligned runner, whose film has no wedge: give &ramp')
       call check_strips(keys, scene)
+      call keys%refuse('bump_foil', 'strip_form', all(foil /= [0, foil_shell]), &
+                       "needs foil = 'shell' in &model: crests of springs are rays")
       if (foil == foil_shell) call check_bump_strips(keys, scene%bump_foil, scene%bearing)
       call check_rigid_gap(keys, scene)
     end associate

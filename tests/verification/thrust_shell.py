@@ -123,6 +123,30 @@ def check_strips(checks, folder):
     checks.below("pads that begin elsewhere: axial_gap", turned["axial_gap"]/condensed["axial_gap"] - 1.0, 1.0e-9)
 
 
+def check_straight(checks, folder):
+    """Straight strips: condensed against full, one pad against all, two ranks; far from the axis they are curved ones, with 1/r^2."""
+    straight = {"strip_form": "straight", "strips": 2, "cut_width": 1.0e-3}
+    one = solve(folder, "one", shells(LOAD, "linear_dynamics", bumps=straight, dynamics={"frequency_ratios": 0.5}))
+    for title, other in (
+            ("condensed against full", solve(folder, "full", shells(LOAD, "linear_dynamics", {"reduction": "none"}, bumps=straight,
+                                                                    dynamics={"frequency_ratios": 0.5}))),
+            ("one pad against all", solve(folder, "every", shells(LOAD | {"tilt": (1.0e-30, 0.0)}, "linear_dynamics", bumps=straight,
+                                                                  dynamics={"frequency_ratios": 0.5}))),
+            ("two ranks", solve(folder, "two", shells(LOAD, "linear_dynamics", bumps=straight, dynamics={"frequency_ratios": 0.5}), ranks=2))):
+        for name in ("axial_gap", "minimum_gap", "maximum_deflection", "line_force_3"):
+            checks.below(f"straight strips, {title}: {name}", one[name]/other[name] - 1.0, 1.0e-8)
+        checks.below(f"straight strips, {title}: K", largest(coefficients(one)[0], coefficients(other)[0]), 1.0e-7)
+    away, radii = [], (1.0, 2.0)
+    for radius in radii:
+        both = [solve(folder, "far", shells(
+            {"axial_gap": 1.2e-5, "speed_rpm": 40000.0*0.0375/radius}, "fixed_position", bumps={"strip_form": form}, mesh=MESH | {"align_crests": False},
+            bearing={"outer_radius": radius + 0.0125, "inner_radius": radius - 0.0125}, pads={"count": 1, "arc": 0.03/radius}))
+                for form in ("straight", "curved")]
+        away.append(abs(both[0]["axial_force"]/both[1]["axial_force"] - 1.0))
+    checks.below(f"straight against curved, mean radius {radii[1]:g} m: axial force", away[1], 5.0e-4)
+    checks.below("the difference falls nearly as the square of the curvature", numpy.log2(away[0]/away[1]) - 2.0, 0.2)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
@@ -131,6 +155,7 @@ def main():
         check_stiffness(checks, folder)
         check_derivatives(checks, folder)
         check_strips(checks, folder)
+        check_straight(checks, folder)
     checks.close()
 
 

@@ -8,7 +8,7 @@ module gfb_shell_foil
   use gfb_result_names, only: add_result
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: largest_number
-  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, node_unknowns, shell_unknowns
+  use gfb_shell_geometry, only: shell_geometry_type, shell_section_type, node_unknowns, shell_unknowns, bilinear
   use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
   use gfb_substructures, only: kind_count
@@ -364,15 +364,24 @@ contains
     type(quad_mesh_type) :: above
     real(wp), allocatable :: points(:, :), coordinates(:, :)
     real(wp), parameter :: round_off = 1.0e-11_wp !! of a shape function
+    !> A node stands for half an element on both sides: so far beyond the edge some of it still touches [1]
+    real(wp), parameter :: half_element = 1.0_wp
+    real(wp) :: slack
     integer, allocatable :: crest(:), element(:), kept(:), nodes(:, :), number(:, :), pressed(:)
     integer :: i, k, before
 
     crest = pack([(i, i=1, size(foil%contacts%point))], foil%contacts%point%law == contact_top)
     allocate (element(size(crest)), coordinates(2, size(crest)), nodes(corners, size(crest)))
     points = foil%bumps%mesh%position(:, foil%contacts%point(crest)%node)
-    above = top_mesh(film, height, stations_above(film, points(tangential, :)))
+    slack = 0.0_wp
+    if (foil%top%mesh%middle > 0.0_wp) then ! crests cross the stations, and the edges
+      above = top_mesh(film, height, middle=foil%top%mesh%middle)
+      slack = half_element
+    else
+      above = top_mesh(film, height, stations_above(film, points(tangential, :)))
+    end if
     before = lbound(above%position, 2) - 1
-    call find_masters(points, above%position, above%element_nodes - before, height, element, coordinates)
+    call find_masters(points, above%position, above%element_nodes - before, height, element, coordinates, slack)
     do i = 1, size(crest)
       nodes(:, i) = 1
       if (element(i) > 0) nodes(:, i) = above%element_nodes(:, lbound(above%element_nodes, 2) + element(i) - 1)
@@ -382,6 +391,7 @@ contains
       if (element(i) == 0) cycle
       associate (point => foil%contacts%point(crest(i)))
         foot = project(above%position(:, nodes(:, i)), points(:, i))
+        if (slack > 0.0_wp) foot%shape = edge_shape(coordinates(:, i))
         ! A crest on a line of nodes has one master; the others would only fill the matrix.
         pressed = pack([(k, k=1, corners)], abs(foot%shape) > round_off)
         point%share = foot%shape(pressed)
@@ -394,6 +404,13 @@ contains
     kept = pack(kept, foil%contacts%point%law == contact_sleeve .or. has_master(foil%contacts%point))
     foil%contacts%point = foil%contacts%point(kept)
   end subroutine find_masters_of_crests
+
+  !> Shares of an element's nodes; at a place beyond its edge those of the nearest one on it.
+  pure function edge_shape(place) result(shape)
+    real(wp), intent(in) :: place(2) !! xi, eta
+    real(wp) :: shape(corners), slope(corners, 2)
+    call bilinear(max(-1.0_wp, min(place(1), 1.0_wp)), max(-1.0_wp, min(place(2), 1.0_wp)), shape, slope(:, 1), slope(:, 2))
+  end function edge_shape
 
   !> The stretch of the film's stations above some points, with a column to spare on both sides.
   pure function stations_above(film, x) result(window)

@@ -48,6 +48,7 @@ module gfb_foil_mesh
     logical :: mirrored = .false.            !! the fixed edge is the one at the largest x
     real(wp) :: edge = 0.0_wp                !! x of the fixed edge [m]
     real(wp) :: ring_radius = 0.0_wp         !! of a sector, where x is measured; 0: none [m]
+    real(wp) :: middle = 0.0_wp              !! of a straight one: x in the sector's middle [m]
     real(wp) :: mean_radius = 0.0_wp         !! of a sector's strip: its sizes are there [m]
     integer :: arc_elements = 12             !! even, so that a node lies on the crest
     integer :: flat_elements = 3
@@ -207,16 +208,31 @@ contains
     angle = 2.0_wp*atan2(height, half_length)
   end function half_angle
 
-  !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0).
-  pure function top_mesh(film, height, window) result(mesh)
+  !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0). Of a sector over straight
+  !> strips it is flat, z along the ray in its middle, where they have their directions.
+  pure function top_mesh(film, height, window, middle) result(mesh)
     type(film_mesh_type), intent(in) :: film   !! the film's mesh
     real(wp), intent(in) :: height             !! of the mid-surface above the flats' [m]
     integer, intent(in), optional :: window(2) !! first and last station; default: all
+    !> x of that ray, over straight strips; 0, as by default: there are none [m]
+    real(wp), intent(in), optional :: middle
     type(quad_mesh_type) :: mesh
+    real(wp) :: turned !! from the pad's middle [rad]
+    integer :: node
 
     mesh = top_foil_mesh(film%surface%radius*(film%station_angle - film%station_angle(1)), height, &
                          film%row_axial, film%half, window)
     if (film%surface%is_ring()) mesh%ring_radius = film%surface%radius
+    if (present(middle)) mesh%middle = middle
+    if (.not. mesh%middle > 0.0_wp) return
+    mesh%ring_radius = 0.0_wp
+    do node = lbound(mesh%position, 2), ubound(mesh%position, 2)
+      turned = film%station_angle((node - 1)/mesh%rows + 1) &
+               - 0.5_wp*(film%station_angle(1) + film%station_angle(film%stations()))
+      mesh%position(1::2, node) = film%row_axial(modulo(node - 1, mesh%rows) + 1)* &
+                                  [sin(turned), cos(turned)]
+      mesh%position(1, node) = mesh%middle + mesh%position(1, node)
+    end do
   end function top_mesh
 
   !> The strip's mesh with the sets crest_<n>, corner_<n>, crests, corners, leading_edge,
@@ -234,6 +250,7 @@ contains
     mesh = station_mesh(station, shape%edge, shape%mirrored, rows, half, window, &
                         shape%mean_radius)
     mesh%ring_radius = shape%ring_radius
+    mesh%middle = shape%middle
     call name_sets(mesh, station, shape)
   end function bump_strip_mesh
 

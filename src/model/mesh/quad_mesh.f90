@@ -47,6 +47,8 @@ module gfb_quad_mesh
     integer :: stations = 0                      !! of the whole mesh
     logical :: half = .false.                    !! z >= 0 only
     real(wp) :: ring_radius = 0.0_wp             !! at which x is measured; 0: no ring [m]
+    !> x where z is a radius, of a flat mesh under a sector [m]
+    real(wp) :: middle = 0.0_wp
   contains
     procedure :: nodes => whole_nodes
     procedure :: elements => whole_elements
@@ -190,6 +192,7 @@ contains
     part%stations = stretch(2) - stretch(1) + 1
     part%half = mesh%half
     part%ring_radius = mesh%ring_radius
+    part%middle = mesh%middle
     if (allocated(mesh%row_axial)) part%row_axial = mesh%row_axial
     if (allocated(mesh%cut)) part%cut = mesh%cut
     if (allocated(mesh%row_thickness)) part%row_thickness = mesh%row_thickness

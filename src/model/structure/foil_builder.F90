@@ -7,7 +7,9 @@ module gfb_foil_builder
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle, strip_ends
-  use gfb_foil_cases, only: top_foil_leading, bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ
+  use gfb_model_case, only: foil_shell
+  use gfb_foil_cases, only: top_foil_leading, bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ, &
+                            strip_curved, strip_straight
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows
   use gfb_foil_mesh, only: top_mesh, strip_shape_type, bump_strip_mesh, strip_substructures, crest_positions, strip_rows, &
@@ -22,7 +24,7 @@ module gfb_foil_builder
   use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
-  public :: build_top, build_bumps, strip_shape, shape_on_pad, sector_sides, section_of, plate_section, plate_stations, keep_elements, gaps_beside, &
+  public :: build_top, build_bumps, strip_shape, shape_on_pad, sector_sides, straight_middle, section_of, plate_section, plate_stations, keep_elements, gaps_beside, &
             find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
 
   integer, parameter :: tangential = 1            !! component of a displacement
@@ -75,7 +77,7 @@ contains
     allocate (angle(0))
     associate (bearing => scene%bearing)
       if (bearing%ramp_part > 0.0_wp) angle = [bearing%ramp_part*pad_angle(bearing)]
-      if (scene%mesh%align_crests) angle = [angle, crest_positions(shape_on_pad(scene))/bearing%radius]
+      if (scene%mesh%align_crests .and. scene%bump_foil%strip_form == strip_curved) angle = [angle, crest_positions(shape_on_pad(scene))/bearing%radius]
     end associate
   end function sector_sides
 
@@ -154,12 +156,32 @@ contains
     type(strip_shape_type), intent(inout) :: shape !! of the strip alone
     real(wp) :: before !! its fixed edge, there [m]
 
-    shape%ring_radius = bearing%radius
-    shape%mean_radius = radius
     before = foil%offset%value
     if (shape%mirrored) before = before + sum(shape%bump%pitch)
+    if (foil%strip_form == strip_straight) then
+      ! Tangential at its mean radius, where an angle from the pad's middle is as long as on the circle.
+      shape%middle = middle_of_sector(bearing)
+      shape%edge = shape%middle + radius*(bearing%ramp_part - 0.5_wp)*pad_angle(bearing) + before
+      return
+    end if
+    shape%ring_radius = bearing%radius
+    shape%mean_radius = radius
     shape%edge = shape%ring_radius*(bearing%ramp_part*pad_angle(bearing) + before/radius)
   end subroutine lay_on_sector
+
+  !> x of the ray in the middle of a sector over straight strips: about where its leading edge is is x = 0 [m].
+  elemental real(wp) function middle_of_sector(bearing) result(middle)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    middle = 0.25_wp*(bearing%inner_radius + bearing%radius)*pad_angle(bearing)
+  end function middle_of_sector
+
+  !> The same where strips are straight, else 0 [m].
+  pure real(wp) function straight_middle(scene) result(middle)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    middle = 0.0_wp
+    if (scene%bearing%is_thrust() .and. scene%bump_foil%strip_form == strip_straight) middle = middle_of_sector(scene%bearing)
+  end function straight_middle
 
   !> Whether strips side by side have meshes of their own: under a sector each repeats at its own mean radius.
   pure logical function strips_are_own(scene) result(own)
@@ -185,7 +207,7 @@ contains
 
     one = one_strip(scene%bump_foil, strip)
     shape = shape_of(scene, one)
-    if (mean%ring_radius > 0.0_wp) then
+    if (scene%bearing%is_thrust()) then
       ends = strip_ends(scene%bearing, scene%bump_foil%strips, scene%bump_foil%cut_width, strip)
       call lay_on_sector(scene%bearing, one, 0.5_wp*sum(ends), shape)
       return
@@ -243,7 +265,7 @@ contains
     associate (foil => scene%bump_foil, strips => scene%bump_foil%strips, &
                cut => scene%bump_foil%cut_width)
       rows = strip_rows(width, axial, half, strips, cut)
-      mesh = bump_strip_mesh(shape, shape%mean_radius + rows, half, window)
+      mesh = bump_strip_mesh(shape, middle_row(scene) + rows, half, window)
       mesh%cut = cut_rows(rows, width, strips, cut)
       if (.not. (strips_are_own(scene) .or. allocated(foil%random%further_gap))) return
       mesh%row_strip = strips_of_rows(rows, width, strips, cut)
@@ -256,6 +278,14 @@ contains
       mesh%row_thickness = foil%thickness%by_strip(mesh%row_strip(:mesh%rows - 1))
     end associate
   end function cut_strip_mesh
+
+  !> Where the middle of the width is: z = 0, or the mean radius of a sector [m].
+  pure real(wp) function middle_row(scene)
+    type(scene_type), intent(in) :: scene
+
+    middle_row = 0.0_wp
+    if (scene%bearing%is_thrust()) middle_row = 0.5_wp*(scene%bearing%inner_radius + scene%bearing%radius)
+  end function middle_row
 
   !> Kinds of a bump foil's pieces: equal ones are equal on every strip.
   function kinds_of_pieces(scene, shape, rows, half) result(kind)
@@ -306,7 +336,8 @@ contains
     type(substructure_type) :: none(0)
     logical, allocatable :: fixed(:, :)
 
-    mesh = top_mesh(film, height, columns_window(division%film, this_rank() + 1))
+    mesh = top_mesh(film, height, columns_window(division%film, this_rank() + 1), &
+                    merge(straight_middle(scene), 0.0_wp, scene%model%foil == foil_shell))
     call find_symmetry_supports(mesh, fixed, film%opposite)
     fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
     if (present(bends_only)) fixed([tangential, axial], :) = fixed([tangential, axial], :) .or. bends_only

@@ -5,7 +5,7 @@ module gfb_foil_grid
   use gfb_bump_contacts, only: normal_line_force
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
-  use gfb_quad_mesh, only: solid_rows
+  use gfb_quad_mesh, only: quad_mesh_type, solid_rows
   use gfb_grid, only: result_grid_type, block_bounds, add_grid_field
   use gfb_text, only: text
   use gfb_film_mesh, only: film_mesh_type
@@ -261,7 +261,8 @@ contains
           if (surface(i)%has_contacts) call add_contacts(pad%foil%nodal_contacts(), surface(i), grid)
           do copy = 1, merge(copies, 0, pad%whole%surface%is_ring())
             if (copies > 1) behind = '_'//text(copy)
-            grids = [grids, grid_in_space(grid, surface(i)%name//behind, pad%whole, turn*real(copy - 1, wp)/real(copies, wp))]
+            grids = [grids, grid_in_space(grid, surface(i)%name//behind, surface(i)%mesh, pad%whole, &
+                                          turn*real(copy - 1, wp)/real(copies, wp))]
           end do
           if (.not. pad%whole%surface%is_ring()) grids = [grids, grid]
         end do
@@ -269,24 +270,32 @@ contains
     end do
   end subroutine add_foil_grids
 
-  !> A sector's surface where it lies in space, its upper face up: rays and circles of its mesh rolled up.
-  function grid_in_space(grid, name, film, further) result(placed)
-    type(result_grid_type), intent(in) :: grid !! unrolled
+  !> A sector's surface where it lies in space, its upper face up: rays and circles of its mesh rolled up, or a flat mesh laid
+  !> along the ray in its middle.
+  function grid_in_space(grid, name, mesh, film, further) result(placed)
+    type(result_grid_type), intent(in) :: grid !! in the mesh's own directions
     character(len=*), intent(in) :: name !! of the grid and its file
+    type(quad_mesh_type), intent(in) :: mesh !! of it
     type(film_mesh_type), intent(in) :: film !! over it
     real(wp), intent(in) :: further !! turn of a pad for which this one stands [rad]
     type(result_grid_type) :: placed
-    real(wp) :: angle, turned(3, 3)
+    real(wp) :: angle, turned(3, 3), aside !! of the ray that a point's directions follow [m]
     integer :: i, k
 
     placed = grid
     placed%name = name
     do i = 1, size(grid%grid%point, 2)
-      angle = film%station_angle(1) + grid%grid%point(1, i)/film%surface%radius + further
+      if (mesh%ring_radius > 0.0_wp) then
+        angle = film%station_angle(1) + grid%grid%point(1, i)/mesh%ring_radius + further
+        aside = 0.0_wp
+      else
+        angle = 0.5_wp*(film%station_angle(1) + film%station_angle(film%stations())) + further
+        aside = grid%grid%point(1, i) - mesh%middle
+      end if
       turned(:, 1) = [-sin(angle), cos(angle), 0.0_wp]
       turned(:, 2) = [0.0_wp, 0.0_wp, 1.0_wp]
       turned(:, 3) = [cos(angle), sin(angle), 0.0_wp]
-      placed%grid%point(:, i) = matmul(turned, [0.0_wp, grid%grid%point(2:, i)])
+      placed%grid%point(:, i) = matmul(turned, [aside, grid%grid%point(2:, i)])
       do k = 1, size(placed%point_field)
         associate (block => placed%point_field(k)%block)
           if (size(block, 1) == size(turned, 1)) block(:, i) = matmul(turned, block(:, i))

@@ -7,7 +7,7 @@ module gfb_foil_cases
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text, join
   use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends, &
-                              needs_journal
+                              needs_journal, needs_thrust
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner
   implicit none (type, external)
@@ -52,6 +52,9 @@ module gfb_foil_cases
   integer, parameter, public :: fixed_edge_none = 3
 
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'leading', 'trailing', 'none']
+  integer, parameter, public :: strip_curved = 1   !! crests are rays
+  integer, parameter, public :: strip_straight = 2 !! they are parallel to the middle ray
+  character(len=*), parameter :: form_words(*) = [character(len=8) :: 'curved', 'straight']
   !> In the order of `gfb_fixed_lines`.
   character(len=*), parameter :: line_words(*) = [character(len=9) :: 'corner', 'flat', 'half_flat']
   character(len=*), parameter :: law_words(*) = [character(len=6) :: 'normal']
@@ -88,6 +91,7 @@ module gfb_foil_cases
     type(size_type) :: offset = size_type('offset', 'of the fixed edge, from the edge of the pad')
     integer :: fixed_edge = fixed_edge_trailing
     integer :: fixed_line = fixed_line_corner
+    integer :: strip_form = strip_curved
     logical :: poissons_ratio_given = .false.
     !> of crests under a plate, from its leading edge; none: by pitch [rad]
     real(wp), allocatable :: crest_angles(:)
@@ -374,6 +378,9 @@ contains
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'the strip begins at its fixed edge with an arc, a flat, or half a flat')
+    call keys%choice_key('strip_form', foil%strip_form, form_words, 'under a sector crests are '// &
+                         "rays, or parallel to the ray in the pad's middle", &
+                         useless=unless(bearing%is_thrust(), needs_thrust))
     call bump_list_key(keys, 'crest_gap', foil%crest_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s crest and the top foil or plate', not_negative, &
                        '0: all crests touch')

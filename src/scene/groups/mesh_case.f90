@@ -5,7 +5,7 @@ module gfb_mesh_case
                               needs_thrust
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
-  use gfb_foil_cases, only: bump_foil_case_type
+  use gfb_foil_cases, only: bump_foil_case_type, strip_straight
   use gfb_model_case, only: model_case_type, meshes_foils, meshes_top_foil
   implicit none (type, external)
   private
@@ -184,6 +184,7 @@ contains
       return
     end if
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
+    if (foil%strip_form == strip_straight) elements = 2*elements ! crests cross them
     if (bearing%is_thrust() .and. meshes_top_foil(model%foil)) then
       elements = max(elements, elements_of_sector)
     end if
