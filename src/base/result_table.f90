@@ -168,8 +168,8 @@ module gfb_result_table
     result_type('deflection_trailing_outer', 'm', number, bearing, &
       'of the top foil away from the runner, at the corners of its trailing edge', joins=.true.), &
     result_type('line_force_<n>', 'N', number, bearing, &
-      'of crest n on the plate of pad 1, or on the shells of a thrust bearing, all strips '// &
-      'together; crests from the leading edge on'), &
+      'of crest n on the plate of pad 1, or a thrust bearing''s shells, all strips; crests '// &
+      'from the leading edge on'), &
     result_type('pads_solved', '1', total, bearing, 'others are the same, turned'), &
     result_type('lifted_length', '1', number, bearing, &
       'crest length without contact over all of it', &
