@@ -75,11 +75,6 @@ contains
       associate (first => node_unknowns*(a - 1) + 1, last => node_unknowns*(a - 1) + 3, &
                  direction => turn%direction(:, :, a))
         matrix(:, first:last) = matmul(matrix(:, first:last), direction)
-      end associate
-    end do
-    do a = 1, shell_nodes
-      associate (first => node_unknowns*(a - 1) + 1, last => node_unknowns*(a - 1) + 3, &
-                 direction => turn%direction(:, :, a))
         matrix(first:last, :) = matmul(transpose(direction), matrix(first:last, :))
       end associate
     end do

@@ -14,7 +14,7 @@ module gfb_bearing_builder
                             foil_elastic_foundation, foil_beam, foil_plate
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh
   use gfb_crest_lines, only: plate_sides
-  use gfb_foil_builder, only: plate_stations, sector_sides, shape_on_pad, gaps_beside
+  use gfb_foil_builder, only: plate_stations, stations_follow_crests, sector_sides, shape_on_pad, gaps_beside
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count
@@ -338,7 +338,7 @@ contains
                                 scene%mesh%edge_refinement, plan%order)
         if (solves_one_pad(scene)) mesh%repeats = bearing%pads
         if (scene%model%foil == foil_shell) call align_stations(mesh, bearing%leading_edge_angle + sector_sides(scene))
-      else if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests) then
+      else if (meshes_foils(scene%model%foil) .and. stations_follow_crests(scene)) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
                             bearing%length, plan%axial, plan%half, plan%order, scene%mesh%edge_refinement)
       else

@@ -311,13 +311,16 @@ contains
     class(foil_model_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the pad, in SI
     real(wp), allocatable :: force(:) !! [N]
+    real(wp), allocatable :: own(:)
     real(wp) :: approach(3), here, slope
     integer :: i
 
     allocate (force(self%crests), source=0.0_wp)
-    do i = 1, merge(size(self%contacts%point), 0, self%crests > 0)
+    if (self%crests == 0) return
+    own = self%own_part(unknown)
+    do i = 1, size(self%contacts%point)
       if (self%contacts%point(i)%law /= contact_top) cycle
-      approach = self%contacts%approach(i, self%own_part(unknown))
+      approach = self%contacts%approach(i, own)
       associate (point => self%contacts%point(i))
         call normal_force(self%contacts%law_of(point), point%length, approach(3), here, slope)
         force(point%line) = force(point%line) + here
@@ -334,9 +337,11 @@ contains
     integer :: i
 
     fraction = huge(fraction)
-    do i = 1, size(self%contacts%point)
-      fraction = min(fraction, self%contacts%next_change(i, self%own_part(here), self%own_part(ahead)))
-    end do
+    associate (now => self%own_part(here), next => self%own_part(ahead))
+      do i = 1, size(self%contacts%point)
+        fraction = min(fraction, self%contacts%next_change(i, now, next))
+      end do
+    end associate
   end function next_contact_change
 
   !> Adds up, for those contacts that change after that fraction of the path, all those of a symmetric

@@ -6,8 +6,7 @@ module gfb_foil_builder
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
-  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle, strip_ends
-  use gfb_model_case, only: foil_shell
+  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle, strip_ends, middle_radius
   use gfb_foil_cases, only: top_foil_leading, bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ, &
                             strip_curved, strip_straight
   use gfb_film_mesh, only: film_mesh_type
@@ -24,8 +23,8 @@ module gfb_foil_builder
   use gfb_foil_assembly, only: create_foil_structure
   implicit none (type)
   private
-  public :: build_top, build_bumps, strip_shape, shape_on_pad, sector_sides, straight_middle, section_of, plate_section, plate_stations, keep_elements, gaps_beside, &
-            find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
+  public :: build_top, build_bumps, strip_shape, shape_on_pad, sector_sides, stations_follow_crests, section_of, plate_section, &
+            plate_stations, keep_elements, gaps_beside, find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
 
   integer, parameter :: tangential = 1            !! component of a displacement
   integer, parameter, public :: axial = 3         !! another
@@ -77,9 +76,17 @@ contains
     allocate (angle(0))
     associate (bearing => scene%bearing)
       if (bearing%ramp_part > 0.0_wp) angle = [bearing%ramp_part*pad_angle(bearing)]
-      if (scene%mesh%align_crests .and. scene%bump_foil%strip_form == strip_curved) angle = [angle, crest_positions(shape_on_pad(scene))/bearing%radius]
+      if (scene%mesh%align_crests .and. scene%bump_foil%strip_form == strip_curved) then
+        angle = [angle, crest_positions(shape_on_pad(scene))/bearing%radius]
+      end if
     end associate
   end function sector_sides
+
+  !> Whether the stations are those of `plate_stations`, counted from crest to crest; of a sector they are moved to the crests.
+  pure logical function stations_follow_crests(scene) result(follow)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    follow = scene%mesh%align_crests .and. .not. scene%bearing%is_thrust()
+  end function stations_follow_crests
 
   !> Elements from crest to crest where stations lie above the crests.
   elemental integer function elements_a_pitch(scene) result(elements)
@@ -104,7 +111,7 @@ contains
     type(scene_type), intent(inout) :: there !! that differs from it
 
     there%mesh%circumferential_elements = scene%mesh%circumferential_elements
-    if (.not. (scene%mesh%align_crests .and. scene%bump_foil%bumps > 0) .or. scene%bearing%is_thrust()) return
+    if (.not. (stations_follow_crests(scene) .and. scene%bump_foil%bumps > 0)) return
     there%mesh%elements_at_ends = elements_at_ends(pad_length(scene%bearing), crest_positions(shape_on_pad(scene)), &
                                                    scene%bump_foil%pitch%value, elements_a_pitch(scene))
   end subroutine keep_elements
@@ -141,7 +148,7 @@ contains
 
     shape = strip_shape(scene)
     if (scene%bearing%is_thrust()) then
-      call lay_on_sector(scene%bearing, scene%bump_foil, 0.5_wp*(scene%bearing%inner_radius + scene%bearing%radius), shape)
+      call lay_on_sector(scene%bearing, scene%bump_foil, middle_radius(scene%bearing), shape)
       return
     end if
     shape%edge = scene%bump_foil%offset%value
@@ -160,7 +167,7 @@ contains
     if (shape%mirrored) before = before + sum(shape%bump%pitch)
     if (foil%strip_form == strip_straight) then
       ! Tangential at its mean radius, where an angle from the pad's middle is as long as on the circle.
-      shape%middle = middle_of_sector(bearing)
+      shape%middle = middle_of_straight(bearing, foil)
       shape%edge = shape%middle + radius*(bearing%ramp_part - 0.5_wp)*pad_angle(bearing) + before
       return
     end if
@@ -169,19 +176,14 @@ contains
     shape%edge = shape%ring_radius*(bearing%ramp_part*pad_angle(bearing) + before/radius)
   end subroutine lay_on_sector
 
-  !> x of the ray in the middle of a sector over straight strips: about where its leading edge is is x = 0 [m].
-  elemental real(wp) function middle_of_sector(bearing) result(middle)
-    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-    middle = 0.25_wp*(bearing%inner_radius + bearing%radius)*pad_angle(bearing)
-  end function middle_of_sector
-
-  !> The same where strips are straight, else 0 [m].
-  pure real(wp) function straight_middle(scene) result(middle)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
+  !> x of the ray in the middle of a sector over straight strips, its leading edge at about x = 0; 0 where there are none [m].
+  pure real(wp) function middle_of_straight(bearing, foil) result(middle)
+    type(bearing_case_type), intent(in) :: bearing
+    type(bump_foil_case_type), intent(in) :: foil
 
     middle = 0.0_wp
-    if (scene%bearing%is_thrust() .and. scene%bump_foil%strip_form == strip_straight) middle = middle_of_sector(scene%bearing)
-  end function straight_middle
+    if (foil%strip_form == strip_straight) middle = 0.5_wp*middle_radius(bearing)*pad_angle(bearing)
+  end function middle_of_straight
 
   !> Whether strips side by side have meshes of their own: under a sector each repeats at its own mean radius.
   pure logical function strips_are_own(scene) result(own)
@@ -284,7 +286,7 @@ contains
     type(scene_type), intent(in) :: scene
 
     middle_row = 0.0_wp
-    if (scene%bearing%is_thrust()) middle_row = 0.5_wp*(scene%bearing%inner_radius + scene%bearing%radius)
+    if (scene%bearing%is_thrust()) middle_row = middle_radius(scene%bearing)
   end function middle_row
 
   !> Kinds of a bump foil's pieces: equal ones are equal on every strip.
@@ -337,7 +339,7 @@ contains
     logical, allocatable :: fixed(:, :)
 
     mesh = top_mesh(film, height, columns_window(division%film, this_rank() + 1), &
-                    merge(straight_middle(scene), 0.0_wp, scene%model%foil == foil_shell))
+                    middle_of_straight(scene%bearing, scene%bump_foil))
     call find_symmetry_supports(mesh, fixed, film%opposite)
     fixed(:, node_set(mesh, plate_fixed_edge(scene))) = .true.
     if (present(bends_only)) fixed([tangential, axial], :) = fixed([tangential, axial], :) .or. bends_only

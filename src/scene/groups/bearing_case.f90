@@ -11,7 +11,7 @@ module gfb_bearing_case
   private
   public :: bearing_case_type, bore_case_type, read_bearing_case, read_pads_case, read_bore_case
   public :: read_ramp_case
-  public :: pad_angle, pad_length, strip_length, strip_ends, pad_turn, preload_angle
+  public :: pad_angle, pad_length, strip_length, strip_ends, middle_radius, pad_turn, preload_angle
 
   integer, parameter, public :: kind_journal = 1 !! a cylinder around the shaft
   integer, parameter, public :: kind_thrust = 2  !! sectors of a ring, a runner above them
@@ -157,9 +157,15 @@ contains
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
 
     length = pad_length(bearing)
-    if (bearing%is_thrust()) length = 0.5_wp*(bearing%inner_radius + bearing%radius)* &
-                                      pad_angle(bearing)*(1.0_wp - bearing%ramp_part)
+    if (bearing%is_thrust()) length = middle_radius(bearing)*pad_angle(bearing)* &
+                                      (1.0_wp - bearing%ramp_part)
   end function strip_length
+
+  !> Mean of a sector's inner and outer radius [m].
+  elemental real(wp) function middle_radius(bearing) result(radius)
+    type(bearing_case_type), intent(in) :: bearing !! of thrust
+    radius = 0.5_wp*(bearing%inner_radius + bearing%radius)
+  end function middle_radius
 
   !> Where one of equal strips side by side ends along the rows of a pad: z, or the radius of a
   !> sector [m].

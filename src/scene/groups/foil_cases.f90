@@ -7,7 +7,7 @@ module gfb_foil_cases
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text, join
   use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends, &
-                              needs_journal, needs_thrust
+                              middle_radius, needs_journal, needs_thrust
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner
   implicit none (type, external)
@@ -451,11 +451,10 @@ contains
                                    '0: strips begin at the edge of the pad, or its ramp''s end')
     if (.not. right) return
     if (bearing%is_thrust() .and. foil%strips > 1 .and. foil%bumps > 0 .and. &
-        .not. (keys%holds(group, 'pitch') .or. keys%holds(group, 'strip_pitch'))) then
-      foil%pitch%by_strip = [(sum(strip_ends(bearing, foil%strips, foil%cut_width, i)), &
-                              i=1, foil%strips)]
-      foil%pitch%by_strip = foil%pitch%value*foil%pitch%by_strip/(bearing%inner_radius + &
-                                                                  bearing%radius)
+        .not. (keys%holds(group, 'pitch') .or. keys%holds(group, 'strip_pitch') .or. &
+               allocated(foil%pitch%by_bump))) then
+      foil%pitch%by_strip = [(0.5_wp*sum(strip_ends(bearing, foil%strips, foil%cut_width, i)), &
+                              i=1, foil%strips)]*foil%pitch%value/middle_radius(bearing)
     end if
     if (.not. foil%width > 0.0_wp) return
     strip = solid_width(foil)/real(foil%strips, wp)

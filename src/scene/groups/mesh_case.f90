@@ -1,8 +1,8 @@
 !> `&mesh`, the number of elements, and `&solver`, tolerances and limits of the solution.
 module gfb_mesh_case
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, kind_journal, needs_journal, &
-                              needs_thrust
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, middle_radius, kind_journal, &
+                              needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type, strip_straight
@@ -159,7 +159,7 @@ contains
 
     radius = bearing%radius
     if (.not. (bearing%is_thrust() .and. meshes_top_foil(model%foil))) return
-    radius = 0.5_wp*(bearing%inner_radius + bearing%radius)
+    radius = middle_radius(bearing)
   end function foil_radius
 
   !> Elements along the pad where the case does not say: whole pitches that cover it.

@@ -191,9 +191,10 @@ contains
     else
       along = find_places([(real(i, wp), i=1, small_surface%mesh%stations)], real(station, wp), .false.)
     end if
-    if (bearing%whole%surface%is_ring()) then ! stations are nearer to each other inside
+    if (surface%mesh%middle > 0.0_wp) then ! rotations are not about the rays
+      along%distance = 0.0_wp
+    else if (bearing%whole%surface%is_ring()) then ! stations are nearer to each other inside
       along%distance = along%distance*surface%mesh%row_axial(row)/bearing%whole%surface%radius
-      if (surface%mesh%middle > 0.0_wp) along%distance = 0.0_wp ! rotations are not about the rays
     end if
     across = find_places(small_surface%mesh%row_axial, surface%mesh%row_axial(row), small%whole%half)
     value = interpolated(small%foil, small_surface, number, coarse, along, across)

@@ -14,7 +14,7 @@ module gfb_smaller_start
   use gfb_model_case, only: foil_shell, meshes_foils, half_width_auto
   use gfb_bearing_case, only: pad_length
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_foil_builder, only: plate_stations
+  use gfb_foil_builder, only: plate_stations, stations_follow_crests
   use gfb_ending, only: path_lost
   use gfb_continuation, only: path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, trial_settings, first_step
@@ -107,7 +107,7 @@ contains
              plan%circumferential*plan%order >= 2*least_circumferential) then
       small%mesh%circumferential_elements = scene%mesh%circumferential_elements/2
       small_plan%circumferential = small%mesh%circumferential_elements
-      if (scene%mesh%align_crests .and. .not. scene%bearing%is_thrust()) small_plan%circumferential = size(plate_stations(small)) - 1
+      if (stations_follow_crests(scene)) small_plan%circumferential = size(plate_stations(small)) - 1
       found = small_plan%circumferential < plan%circumferential
     else
       found = .false.

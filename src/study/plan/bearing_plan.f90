@@ -22,7 +22,7 @@ module gfb_bearing_plan
   use gfb_general_film, only: film_flow_type, general_peclet
   use gfb_film_surface, only: entraining_speed
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_foil_builder, only: plate_stations
+  use gfb_foil_builder, only: plate_stations, stations_follow_crests
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core
   use gfb_memory_check, only: film_memory, plate_memory, bearing_memory, study_share, &
@@ -124,8 +124,7 @@ contains
 
     plan%order = scene%model%film_order
     plan%circumferential = scene%mesh%circumferential_elements
-    if (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests .and. &
-        .not. scene%bearing%is_thrust()) then
+    if (meshes_foils(scene%model%foil) .and. stations_follow_crests(scene)) then
       plan%circumferential = size(plate_stations(scene)) - 1
     end if
     plan%axial = scene%mesh%axial_elements
