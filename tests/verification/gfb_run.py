@@ -16,6 +16,7 @@ from gfb.run import MPIEXEC, namelist_value, write_case  # noqa: E402, F401
 
 GFB = os.environ.get("GFB", "gfb")
 SECONDS = 900  # no run here takes that long
+ROUNDING = {"energy_imbalance": 1.0}  # what is rounding alone is compared with
 
 
 @dataclasses.dataclass(frozen=True)
@@ -123,7 +124,7 @@ def natural_sizes(bearing):
     sizes |= {f"eccentricity_{axis}": bearing.clearance for axis in "xy"}
     for axis in "xy":
         sizes |= {f"torque_{axis}": force*bearing.length, f"torque_{axis}_without_suction": force*bearing.length}
-    return sizes | {"energy_imbalance": 1.0}  # rounding alone
+    return sizes | ROUNDING
 
 
 class Checks:

@@ -6,7 +6,7 @@ import re
 
 import numpy
 
-from gfb_run import COST, Bearing, largest_difference, natural_sizes, summary_difference
+from gfb_run import COST, ROUNDING, Bearing, largest_difference, natural_sizes, summary_difference
 
 
 @dataclasses.dataclass
@@ -48,7 +48,7 @@ def sizes_of(text, one):
             "largest_multiplier": 10.0}  # from differences of orbits that are 2e-6 apart
     works = ("strain_energy", "penalty_energy", "friction_work", "external_work", "dissipated_energy")
     if "maximum_force" not in one.summary:
-        return {}
+        return ROUNDING
     largest, energy = one["maximum_deflection"], one["maximum_deflection"]*one["maximum_force"]
     return {name: energy for name in works} | {"force": one["maximum_force"], "plate_travel": largest} | {
         name: largest for name in one.summary if name.startswith("crest_deflection_")}

@@ -20,16 +20,17 @@ static int begins(const char *function, const char *name)
   return function && strncmp(function, name, strlen(name)) == 0;
 }
 
-/* Whether PETSc got no memory; its older versions give a line for the code then. */
-static int is_memory(PetscErrorCode code, const char *function)
+/* Whether PETSc, whose older versions give a line for the code then, or MUMPS, where it solves, got no memory. */
+static int is_memory(PetscErrorCode code, const char *function, const char *message)
 {
-  return code == PETSC_ERR_MEM || begins(function, "PetscMalloc") || begins(function, "PetscRealloc");
+  return code == PETSC_ERR_MEM || begins(function, "PetscMalloc") || begins(function, "PetscRealloc")
+      || (message && strstr(message, "INFOG(1)=-13"));
 }
 
 /* Whether an error is a failure of the machine's, or of an option that the user gave PETSc, and no mistake of the program's. */
-static int is_outside(PetscErrorCode code, const char *function)
+static int is_outside(PetscErrorCode code, const char *function, const char *message)
 {
-  if (is_memory(code, function)) return 1;
+  if (is_memory(code, function, message)) return 1;
   switch (code) {
   case PETSC_ERR_LIB:
   case PETSC_ERR_NOT_CONVERGED:
@@ -55,11 +56,11 @@ static PetscErrorCode end_with_sentence(MPI_Comm communicator, int line, const c
   const char *options = getenv("PETSC_OPTIONS");
   int         ranks, initialized;
 
-  if (!is_outside(code, function)) return PetscTraceBackErrorHandler(communicator, line, function, file, code, kind, message, context);
+  if (!is_outside(code, function, message)) return PetscTraceBackErrorHandler(communicator, line, function, file, code, kind, message, context);
   if (kind != PETSC_ERROR_INITIAL) return code;
   fflush(stdout);
   fprintf(stderr, "a library failed, in %s: %s", function ? function : "a library",
-          is_memory(code, function) ? "no memory" : message && *message ? message : "no reason was given");
+          is_memory(code, function, message) ? "no memory" : message && *message ? message : "no reason was given");
   if (options && *options) fprintf(stderr, "; PETSC_OPTIONS is '%s'", options);
   fprintf(stderr, "\n");
   fflush(stderr);
