@@ -150,7 +150,16 @@ module gfb_result_table
       asked=.true.), &
     result_type('axial_force_<n>', 'N', number, bearing, 'share of pad n in axial_force'), &
     result_type('axial_load', 'N', number, sweep, 'what the sweep changes'), &
-    result_type('mean_pressure', 'Pa', number, bearing, 'axial_force over the area of the pads', &
+    result_type('opposite_gap', 'm', number, bearing, &
+      'of the bearing on the runner''s other side, on the axis', &
+      'with `axial_play`: of the bearing on the runner''s other side, on the axis', &
+      compared=.true.), &
+    result_type('opposite_force', 'N', number, bearing, &
+      'of the bearing on the runner''s other side, which presses it back', joins=.true.), &
+    result_type('opposite_minimum_gap', 'm', number, bearing, &
+      'of the bearing on the runner''s other side', joins=.true., nodal=.true.), &
+    result_type('mean_pressure', 'Pa', number, bearing, &
+      'axial_force over the area of the pads of one side', &
       asked=.true.), &
     result_type('minimum_gap_radius', 'm', number, bearing, 'where the film is thinnest', &
       'of a thrust bearing: where the film is thinnest', nodal=.true.), &

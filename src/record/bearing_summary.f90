@@ -92,7 +92,7 @@ contains
   subroutine add_ring(answer, list)
     type(bearing_answer_type), intent(in) :: answer
     type(quantity_type), allocatable, intent(inout) :: list(:)
-    integer :: i
+    integer :: i, copies, solved
 
     associate (ring => answer%ring)
       call add_result(list, 'axial_gap', -answer%place(axial))
@@ -107,6 +107,11 @@ contains
       call add_result(list, 'minimum_gap', answer%minimum_gap)
       call add_result(list, 'minimum_gap_radius', ring%thinnest(1))
       call add_result(list, 'minimum_gap_angle', ring%thinnest(2))
+      if (ring%sides > 1) then
+        call add_result(list, 'opposite_gap', ring%opposite_gap)
+        call add_result(list, 'opposite_force', ring%opposite_force)
+        call add_result(list, 'opposite_minimum_gap', ring%opposite_smallest)
+      end if
       call add_result(list, 'maximum_pressure', answer%maximum_pressure)
       call add_result(list, 'minimum_pressure', answer%minimum_pressure)
       if (ring%centre(1) > 0.0_wp) then
@@ -124,10 +129,12 @@ contains
       call add_result(list, 'pads_solved', ring%pads_solved)
     end associate
     call add_lines(answer, list)
+    copies = answer%ring%pads/answer%ring%pads_solved
     do i = 1, merge(answer%ring%pads, 0, answer%ring%pads > 1)
+      solved = (i - 1)/copies + 1
       if (allocated(answer%pad_gap)) then
-        call add_result(list, 'axial_force_'//text(i), answer%pad_force(axial, i))
-        call add_result(list, 'minimum_gap_'//text(i), answer%pad_gap(i))
+        call add_result(list, 'axial_force_'//text(i), answer%pad_force(axial, solved)/copies)
+        call add_result(list, 'minimum_gap_'//text(i), answer%pad_gap(solved))
       else ! equal ones
         call add_result(list, 'axial_force_'//text(i), answer%force(axial)/answer%ring%pads)
         call add_result(list, 'minimum_gap_'//text(i), answer%minimum_gap)
@@ -325,6 +332,12 @@ contains
       call log%line('axial force      '//engineering_text(answer%force(axial), 'N', 1.0_wp)// &
                     '   mean pressure '//engineering_text(answer%force(axial)/ring%area, 'kPa', &
                                                           1.0e-3_wp)//' over ambient')
+      if (ring%sides > 1) then
+        call log%line('runner''s other side: axial gap '// &
+                      engineering_text(ring%opposite_gap, 'um', 1.0e6_wp)//', force '// &
+                      engineering_text(ring%opposite_force, 'N', 1.0_wp)//', minimum gap '// &
+                      engineering_text(ring%opposite_smallest, 'um', 1.0e6_wp))
+      end if
       call log%line('torque on shaft  '//pair(answer%force(4:5), 'N m', 1.0_wp))
       call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
                     '   at radius '//engineering_text(ring%thinnest(1), 'mm', 1.0e3_wp)//', '// &

@@ -46,6 +46,7 @@ module gfb_plausible_values
     range_type(1.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm', 'bearing%clearance'), &
     range_type(1.0e-6_wp, 5.0e-4_wp, 'm', 'um,mm', 'ramp%height'), &
     range_type(5.0e-7_wp, 2.0e-4_wp, 'm', 'um,mm', 'operation%axial_gap'), &
+    range_type(5.0e-6_wp, 1.0e-3_wp, 'm', 'um,mm', 'bearing%axial_play'), &
     range_type(0.0_wp, 1.0e3_wp, 'N m', 'N mm', 'operation%moment'), &
     range_type(0.0_wp, 1.0e-3_wp, 'm', 'um,mm', &
                'bearing%assembly_interference bore%wave_amplitude bore%shim_height '// &

@@ -309,7 +309,7 @@ contains
         return
       end if
       drawn_heights = real(scene%sample%count, wp)*real(foil%bumps, wp)* &
-                      real(foil%strips*scene%bearing%pads, wp)
+                      real(foil%strips*scene%bearing%all_pads(), wp)
       if (drawn_heights > most_heights) then
         call keys%complain('sample', 'count', 'needs '//text(drawn_heights, 3)//' heights of '// &
                            'bumps, which must not be more than '//text(nint(most_heights)))
@@ -339,7 +339,8 @@ contains
     associate (foil => member%bump_foil)
       foil%random%seed = scene%bump_foil%random%seed + number - 1
       if (foil%random%deviation > 0.0_wp) then
-        call draw_gaps(foil%random, foil%bumps, foil%strips*scene%bearing%pads, foil%crest_gap)
+        call draw_gaps(foil%random, foil%bumps, foil%strips*scene%bearing%all_pads(), &
+                       foil%crest_gap)
       end if
       member%name = scene%name//'.seed'//text(foil%random%seed)
     end associate

@@ -44,6 +44,7 @@ contains
       call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_gap .and. &
                      scene%general%analysis /= analysis_fixed_position, &
                      'needs a gap that is held: axial_gap in &operation without axial_load')
+      call check_play(keys, scene)
       call keys%rule('sweep', 'parameter', scene%operation%moment_given .and. any( &
                      sweep%parameter == [sweep_tilt_x, sweep_tilt_y]), 'needs a tilt that is '// &
                      'held: no moment in &operation')
@@ -67,6 +68,26 @@ contains
       call check_rigid_gap(keys, scene)
     end associate
   end subroutine check_thrust
+
+  !> Loads and gaps of a sweep fit the sides that there are; heat has one side.
+  subroutine check_play(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    integer :: point
+
+    associate (sweep => scene%sweep, play => scene%bearing%play)
+      do point = 1, size(sweep%values)
+        call keys%rule('sweep', 'values', sweep%parameter == sweep_axial_load .and. .not. &
+                       max(play, sweep%values(point)) > 0.0_wp, 'must be positive without '// &
+                       'axial_play in &bearing', point)
+        call keys%rule('sweep', 'values', sweep%parameter == sweep_axial_gap .and. &
+                       play > 0.0_wp .and. sweep%values(point) >= play, 'must be less than '// &
+                       'axial_play in &bearing, '//text(play)//' m', point)
+      end do
+      call keys%rule('bearing', 'axial_play', play > 0.0_wp .and. scene%thermal%present, &
+                     'cannot stand beside &thermal yet: heat is known of one side')
+    end associate
+  end subroutine check_play
 
   !> Whether the film narrows along the motion somewhere: by a ramp, or a tilt.
   pure logical function bearing_wedges(scene) result(wedges)
@@ -188,7 +209,7 @@ contains
     integer, intent(out) :: pad       !! number
     real(wp), intent(out) :: place(2) !! radius and angle [m], [rad]
     integer, parameter :: points = 500 !! of a pad
-    real(wp) :: radii(2), angle, along, here
+    real(wp) :: radii(2), angle, along, here, tilted
     integer :: number, i, side
 
     gap = huge(1.0_wp)
@@ -200,8 +221,11 @@ contains
         along = pad_angle(bearing)*real(i, wp)/real(points, wp)
         angle = bearing%leading_edge_angle + pad_turn(bearing, number) + along
         do side = 1, size(radii)
-          here = operation%axial_gap + bearing%ramp_gap(along) + radii(side)* &
-                 (operation%tilt(2)*cos(angle) - operation%tilt(1)*sin(angle))
+          tilted = radii(side)*(operation%tilt(2)*cos(angle) - operation%tilt(1)*sin(angle))
+          here = bearing%ramp_gap(along) + operation%axial_gap + tilted
+          if (bearing%play > 0.0_wp) then
+            here = min(here, bearing%ramp_gap(along) + bearing%play - operation%axial_gap - tilted)
+          end if
           if (here >= gap) cycle
           gap = here
           pad = number

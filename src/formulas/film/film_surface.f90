@@ -17,6 +17,8 @@
 !> the text of its section 4.3 fits only with the two exchanged, as here. Forces and torques on the
 !> sleeve are conjugate to q: a pressure p has the power \( p \, b \cdot \dot q \) an area.
 !>
+!> A film on the other side of a runner faces the other way: its b has the other sign.
+!>
 !> Arcs of a mesh are measured at one radius R, where the shaft's surface has the speed
 !> \( \Omega R \). Elsewhere arc and speed are \( r/R \) times that, the stretch: 1 on a cylinder.
 module gfb_film_surface
@@ -38,6 +40,7 @@ module gfb_film_surface
     real(wp) :: origin = 0.0_wp !! r_0 [m]
     real(wp) :: offset = 0.0_wp !! z_0, of the midplane from the rotor's centre [m]
     real(wp) :: cosine = 1.0_wp, sine = 0.0_wp !! of beta [1]
+    real(wp) :: facing = 1.0_wp !! -1: on the runner's other side
   contains
     procedure :: is_ring, motions, radius_at, stretch, lever, tilt_arm, position, motion
     procedure :: point_motions, motion_excess, gap
@@ -134,6 +137,7 @@ contains
     real(wp), intent(in) :: lever !! l [m]
     real(wp) :: b(shaft_coordinates)
     b = [surface%cosine*[cos(angle), sin(angle)], -surface%sine, lever*[-sin(angle), cos(angle)]]
+    if (surface%facing < 0.0_wp) b = -b
   end function motion_of
 
   !> The same at the Gauss points of an element.
@@ -188,6 +192,7 @@ contains
     associate (lever => self%lever(along))
       h = clearance + (self%cosine*e_x + lever*phi_y)*cosine &
           + (self%cosine*e_y - lever*phi_x)*sine - self%sine*e_z
+      if (self%facing < 0.0_wp) h = 2.0_wp*clearance - h
     end associate
   end function gap
 

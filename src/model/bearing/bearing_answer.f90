@@ -6,7 +6,7 @@ module gfb_bearing_answer
   use gfb_contact_measures, only: contact_measures_type, contact_extremes, contact_sums, &
                                   measures_of, extremes, summed
   use gfb_film_load, only: film_forces
-  use gfb_film_surface, only: shaft_coordinates
+  use gfb_film_surface, only: shaft_coordinates, axial_coordinate
   use gfb_film_measures, only: force_without_suction, film_drag, film_moment, film_peclet, &
                                film_midplane_gap, pressure_moments, square_integrals
   use gfb_operating_point, only: operating_point_type
@@ -23,12 +23,16 @@ module gfb_bearing_answer
   !> What a thrust bearing's answer has beside those of all.
   type, public :: ring_answer_type
     logical :: present = .false.
-    real(wp) :: area = 0.0_wp          !! of the pads [m2]
+    real(wp) :: area = 0.0_wp          !! of the pads of one side [m2]
     real(wp) :: thinnest(2) = 0.0_wp   !! radius and angle where the film is thinnest [m], [rad]
     !> of the first pad's top foil, at the inner and outer corner of its trailing edge [m]
     real(wp) :: trailing_deflection(2) = 0.0_wp
     real(wp) :: centre(2) = 0.0_wp     !! of the pressure on pad 1, from its leading edge; 0: none
-    integer :: pads = 1, pads_solved = 1
+    integer :: pads = 1, pads_solved = 1 !! of all sides
+    integer :: sides = 1 !! of the runner that bear it
+    !> force of the second side, which presses the runner back, its gap on the axis and the
+    !> smallest one [N], [m], [m]
+    real(wp) :: opposite_force = 0.0_wp, opposite_gap = 0.0_wp, opposite_smallest = 0.0_wp
   end type ring_answer_type
 
   !> Numbers of one state.
@@ -138,6 +142,7 @@ contains
     if (whole .and. bearing%pad(1)%film%surface%is_ring()) then
       answer%ring = ring_answer(bearing, pressure, gap)
       if (answer%has_foils) answer%ring%trailing_deflection = trailing_deflection(bearing, unknown)
+      if (answer%ring%sides > 1) call read_other_side(bearing, answer)
     end if
   end function bearing_answer
 
@@ -159,7 +164,8 @@ contains
       end associate
     end do
     area = sum_over_ranks(area)
-    answer%area = area(2)*bearing%pad(1)%whole%repeats
+    if (bearing%pad(size(bearing%pad))%film%surface%facing < 0.0_wp) answer%sides = 2
+    answer%area = area(2)*bearing%pad(1)%whole%repeats/answer%sides
     answer%pads = bearing%pad(1)%whole%repeats*size(bearing%pad)
     smallest = -largest_over_ranks([-minval(gap)])
     answer%thinnest = place_of_gap(bearing, gap, smallest(1))
@@ -171,6 +177,18 @@ contains
       end if
     end associate
   end function ring_answer
+
+  !> What the bearing on the runner's other side does.
+  subroutine read_other_side(bearing, answer)
+    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_answer_type), intent(inout) :: answer !! with the shares of all pads
+
+    associate (ring => answer%ring, first => size(answer%pad_gap)/2 + 1)
+      ring%opposite_force = -sum(answer%pad_force(axial_coordinate, first:))
+      ring%opposite_smallest = minval(answer%pad_gap(first:))
+      ring%opposite_gap = bearing%pad(first)%film%surface%offset + answer%place(axial_coordinate)
+    end associate
+  end subroutine read_other_side
 
   !> Deflection of the first pad's top foil at the inner and outer corner of its trailing edge [m].
   function trailing_deflection(bearing, unknown) result(corner)

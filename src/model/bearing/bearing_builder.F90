@@ -226,8 +226,9 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         call put_bore(pad%film, scene%bore%profile)
-        if (scene%bearing%ramp_part > 0.0_wp) then
-          call put_ramp(pad%film, scene%bearing%ramp_gap(pad%film%angle - pad%whole%station_angle(1)))
+        if (scene%bearing%ramp_part > 0.0_wp .or. scene%bearing%play > 0.0_wp) then
+          call put_ramp(pad%film, scene%bearing%ramp_gap(pad%film%angle - pad%whole%station_angle(1)) &
+                        + merge(scene%bearing%play, 0.0_wp, pad%film%surface%facing < 0.0_wp))
         end if
         pad%film%interference = scene%bearing%interference
         pad%film%law = scene%gas%law
@@ -276,29 +277,37 @@ contains
   end subroutine take_heat_numbers
 
   !> Where the pads stand: the preload m moves the centre of each towards the shaft, so that its gap is less by
-  !> \( m C \cos(\theta - \theta_p) \). Of two bearings of a rotor that tilts the pads of the first one, at +z, come first.
+  !> \( m C \cos(\theta - \theta_p) \). Of two bearings of a rotor that tilts the pads of the first one, at +z, come first; of
+  !> two on both sides of a runner those that the load presses it on.
   !>
   !> No function: gfortran 12 leaves out the defaults of a result of this type.
   pure subroutine find_places(scene, offset, place)
     type(scene_type), intent(in) :: scene
     real(wp), intent(in) :: offset !! of two bearings' midplanes; 0: there is one bearing [m]
     type(pad_place_type), allocatable, intent(out) :: place(:)
-    integer :: i
+    integer :: pads, i
 
     associate (bearing => scene%bearing)
-      allocate (place(merge(1, bearing%pads, solves_one_pad(scene))*merge(2, 1, offset > 0.0_wp)))
-      do i = 1, min(bearing%pads, size(place))
+      pads = merge(1, bearing%pads, solves_one_pad(scene))
+      allocate (place(pads*merge(2, 1, offset > 0.0_wp .or. bearing%play > 0.0_wp)))
+      do i = 1, pads
         place(i)%turn = pad_turn(bearing, i)
         associate (angle => preload_angle(bearing, i))
           if (bearing%preload > 0.0_wp) place(i)%shift = -bearing%preload*bearing%clearance*[cos(angle), sin(angle)]
         end associate
         if (i > 1 .and. scene%bump_foil%random%deviation > 0.0_wp) place(i)%further_gap = gaps_beside(scene%bump_foil, i)
       end do
-      if (size(place) <= bearing%pads) return
-      do i = 1, bearing%pads
-        place(bearing%pads + i) = place(i)
-        place(i)%offset = offset
-        place(bearing%pads + i)%offset = -offset
+      if (size(place) == pads) return
+      do i = 1, pads
+        associate (other => place(pads + i))
+          other = place(i)
+          place(i)%offset = offset
+          other%offset = merge(bearing%play, -offset, bearing%play > 0.0_wp)
+          other%facing = merge(-1.0_wp, 1.0_wp, bearing%play > 0.0_wp)
+          if (bearing%play > 0.0_wp .and. scene%bump_foil%random%deviation > 0.0_wp) then
+            other%further_gap = gaps_beside(scene%bump_foil, pads + i)
+          end if
+        end associate
       end do
     end associate
   end subroutine find_places

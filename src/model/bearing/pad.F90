@@ -51,6 +51,7 @@ module gfb_pad
     real(wp) :: turn = 0.0_wp     !! from the first pad [rad]
     real(wp) :: shift(2) = 0.0_wp !! of its centre of curvature relative to the bearing's, seen as an eccentricity [m]
     real(wp) :: offset = 0.0_wp   !! of its midplane along the axis from the rotor's centre of mass [m]
+    real(wp) :: facing = 1.0_wp   !! -1: it faces the runner's other side, and stands at the play, its offset [1]
     real(wp), allocatable :: further_gap(:, :) !! (bumps, strips) of its crests, over those of the first pad; none: the same [m]
   end type pad_place_type
 
@@ -329,6 +330,7 @@ contains
     pad%last_node = pad%first_node + nodes
     pad%whole%station_angle = first%whole%station_angle + place%turn
     pad%whole%surface%offset = place%offset
+    pad%whole%surface%facing = place%facing
     associate (film => first%film)
       call create_gas_film(pad%whole, pad%mesh%mesh_node, pad%mesh%element_nodes, film%clearance, film%ambient_pressure, &
                            film%flow%viscosity, film%flow%upwind, pad%film, error)

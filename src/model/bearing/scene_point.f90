@@ -19,7 +19,7 @@ contains
     point%load(:2) = operation%load
     point%place(:2) = operation%eccentricity
     point%place(4:5) = operation%tilt
-    if (operation%axial_load > 0.0_wp) point%load(axial_coordinate) = -operation%axial_load
+    if (abs(operation%axial_load) > 0.0_wp) point%load(axial_coordinate) = -operation%axial_load
     if (operation%axial_gap > 0.0_wp) point%place(axial_coordinate) = -operation%axial_gap
     if (operation%moment_given) point%load(4:5) = operation%moment
   end function operating_point

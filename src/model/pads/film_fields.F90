@@ -65,7 +65,7 @@ contains
         station = modulo((i - 1)/rows - pad*lines, whole%stations())
         row = modulo(i - 1, rows) + 1
         if (whole%half) row = abs(row - whole%rows()) + 1
-        if (whole%repeats > 1) pad = 0 ! the others are the same
+        pad = pad/whole%repeats ! the others are the same
         wanted(i - first + 1) = pad*whole%nodes() + station*whole%rows() + row
       end do
     end associate

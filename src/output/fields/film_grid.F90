@@ -5,6 +5,7 @@ module gfb_film_grid
   use gfb_study_cases, only: output_case_type
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_film_surface, only: film_surface_type
   use gfb_film_fields, only: film_block, full_rows
   use gfb_grid, only: result_grid_type, block_bounds, add_grid_field, strip_grid
   implicit none (type, external)
@@ -13,19 +14,23 @@ module gfb_film_grid
 
 contains
 
-  !> Adds the film with the fields the scene asks for; nothing where it asks for none. The film of the second bearing of a
-  !> rotor that tilts has a number behind its name.
+  !> Adds the film with the fields the scene asks for; nothing where it asks for none. The film of the second bearing, of a
+  !> rotor that tilts or on a runner's other side, has a number behind its name.
   subroutine add_film_grid(bearing, output, grids)
     type(bearing_system_type), intent(in) :: bearing !! at the state to be written
     type(output_case_type), intent(in) :: output !! which fields are asked for
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written; gets the film
     integer :: pads
+    logical :: two
 
     if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
     pads = size(bearing%pad)*bearing%pad(1)%whole%repeats
-    if (abs(bearing%pad(1)%film%surface%offset) > 0.0_wp) pads = pads/2
+    associate (first => bearing%pad(1)%film%surface, last => bearing%pad(size(bearing%pad))%film%surface)
+      two = abs(last%offset - first%offset) > 0.0_wp
+    end associate
+    if (two) pads = pads/2
     call add_pads(bearing, output, 0, pads, 'film', grids)
-    if (pads < size(bearing%pad)) call add_pads(bearing, output, pads, pads, 'film_2', grids)
+    if (two) call add_pads(bearing, output, pads, pads, 'film_2', grids)
   end subroutine add_film_grid
 
   !> Adds the film of some pads, those of one bearing.
@@ -38,6 +43,7 @@ contains
     type(result_grid_type), allocatable, intent(inout) :: grids(:)
 
     type(result_grid_type) :: film
+    type(film_surface_type) :: surface
     real(wp) :: unknown(bearing%local_size())
     real(wp), allocatable :: angle(:, :)
     integer :: i, first, last
@@ -45,9 +51,10 @@ contains
 
     call bearing%get_unknowns(unknown)
     film%name = name
-    film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + bearing%pad(before + 1)%film%surface%offset, &
-                           this_rank(), rank_count())
-    associate (surface => bearing%pad(1)%film%surface, point => film%grid%point)
+    surface = bearing%pad(before/bearing%pad(1)%whole%repeats + 1)%film%surface
+    film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + surface%offset*surface%cosine, this_rank(), &
+                           rank_count())
+    associate (point => film%grid%point)
       ring = surface%is_ring()
       angle = point(1:1, :)/surface%radius + bearing%pad(1)%whole%station_angle(1)
       do i = 1, merge(size(point, 2), 0, ring) ! a ring is no plane when it is unrolled

@@ -6,6 +6,7 @@ module gfb_foil_grid
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_quad_mesh, only: quad_mesh_type, solid_rows
+  use gfb_meshed_foil, only: top_surface
   use gfb_grid, only: result_grid_type, block_bounds, add_grid_field
   use gfb_text, only: text
   use gfb_film_mesh, only: film_mesh_type
@@ -242,12 +243,17 @@ contains
     type(result_grid_type) :: grid
     real(wp) :: unknown(bearing%local_size())
     character(len=:), allocatable :: behind !! the surface's name
+    real(wp) :: level !! of the top foil's mid-surface over the sleeve [m]
     integer :: i, k, copy, copies
 
     call bearing%get_unknowns(unknown)
     surface = bearing%pad(1)%foil%surfaces()
     if (size(surface) == 0) return
     behind = ''
+    level = 0.0_wp ! a rank without a part of the foils writes none
+    associate (top => surface(top_surface)%mesh%position)
+      if (size(top, 2) > 0) level = top(2, 1) ! it is flat
+    end associate
     copies = bearing%pad(1)%whole%repeats
     do k = 1, size(bearing%pad)
       associate (pad => bearing%pad(k))
@@ -255,13 +261,13 @@ contains
         motion = pad%foil%motions(unknown(pad%first + 1:pad%last), bearing%modulus(k, unknown))
         do i = 1, size(surface)
           call create_foil_grid(surface(i), surface(i)%name//behind, grid)
-          grid%grid%point(3, :) = grid%grid%point(3, :) + pad%film%surface%offset
+          grid%grid%point(3, :) = grid%grid%point(3, :) + pad%film%surface%offset*pad%film%surface%cosine
           call add_displacement(surface(i), 'displacement', 'of the mid-surface', motion(i)%displacement, grid)
           call add_stress(surface(i), motion(i)%stress, grid)
           if (surface(i)%has_contacts) call add_contacts(pad%foil%nodal_contacts(), surface(i), grid)
           do copy = 1, merge(copies, 0, pad%whole%surface%is_ring())
-            if (copies > 1) behind = '_'//text(copy)
-            grids = [grids, grid_in_space(grid, surface(i)%name//behind, surface(i)%mesh, pad%whole, &
+            if (copies > 1) behind = '_'//text((k - 1)*copies + copy)
+            grids = [grids, grid_in_space(grid, surface(i)%name//behind, surface(i)%mesh, pad%whole, level, &
                                           turn*real(copy - 1, wp)/real(copies, wp))]
           end do
           if (.not. pad%whole%surface%is_ring()) grids = [grids, grid]
@@ -270,13 +276,14 @@ contains
     end do
   end subroutine add_foil_grids
 
-  !> A sector's surface where it lies in space, its upper face up: rays and circles of its mesh rolled up, or a flat mesh laid
-  !> along the ray in its middle.
-  function grid_in_space(grid, name, mesh, film, further) result(placed)
+  !> A sector's surface where it lies in space, its upper face towards the runner and the top foil's mid-surface in the film's
+  !> plane: rays and circles of its mesh rolled up, or a flat mesh laid along the ray in its middle.
+  function grid_in_space(grid, name, mesh, film, level, further) result(placed)
     type(result_grid_type), intent(in) :: grid !! in the mesh's own directions
     character(len=*), intent(in) :: name !! of the grid and its file
     type(quad_mesh_type), intent(in) :: mesh !! of it
     type(film_mesh_type), intent(in) :: film !! over it
+    real(wp), intent(in) :: level   !! of the top foil's mid-surface over the sleeve [m]
     real(wp), intent(in) :: further !! turn of a pad for which this one stands [rad]
     type(result_grid_type) :: placed
     real(wp) :: angle, turned(3, 3), aside !! of the ray that a point's directions follow [m]
@@ -293,9 +300,10 @@ contains
         aside = grid%grid%point(1, i) - mesh%middle
       end if
       turned(:, 1) = [-sin(angle), cos(angle), 0.0_wp]
-      turned(:, 2) = [0.0_wp, 0.0_wp, 1.0_wp]
+      turned(:, 2) = [0.0_wp, 0.0_wp, film%surface%facing]
       turned(:, 3) = [cos(angle), sin(angle), 0.0_wp]
-      placed%grid%point(:, i) = matmul(turned, [aside, grid%grid%point(2:, i)])
+      placed%grid%point(:, i) = matmul(turned, [aside, grid%grid%point(2, i) - level, grid%grid%point(3, i)]) &
+                                + [0.0_wp, 0.0_wp, film%surface%offset]
       do k = 1, size(placed%point_field)
         associate (block => placed%point_field(k)%block)
           if (size(block, 1) == size(turned, 1)) block(:, i) = matmul(turned, block(:, i))

@@ -33,6 +33,7 @@ module gfb_bearing_case
     integer :: kind = kind_journal           !! 0 where it is misspelt
     real(wp) :: radius = 0.0_wp              !! of the shaft; outer one of a ring [m]
     real(wp) :: inner_radius = 0.0_wp        !! of a ring [m]
+    real(wp) :: play = 0.0_wp                !! between two rings; 0: there is one [m]
     real(wp) :: length = 0.0_wp              !! across the motion: along the axis, or the radius [m]
     !> radial; of a thrust bearing the size of its gap, see `size_of_gap` [m]
     real(wp) :: clearance = 0.0_wp
@@ -46,7 +47,7 @@ module gfb_bearing_case
     real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
     real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
   contains
-    procedure :: is_thrust, ramp_gap
+    procedure :: is_thrust, ramp_gap, all_pads
   end type bearing_case_type
 
   !> The bore.
@@ -87,6 +88,10 @@ contains
     call keys%rule('bearing', 'inner_radius', ring .and. bearing%radius > 0.0_wp .and. &
                    bearing%inner_radius >= bearing%radius, 'must be less than outer_radius, '// &
                    text(bearing%radius)//' m')
+    call keys%real_key('axial_play', bearing%play, 'm', 'sum of the gaps on both sides of the '// &
+                       'runner: on its other side there is the same bearing as its mirror '// &
+                       'image, and `axial_load` may be 0 or negative', positive, &
+                       default='no bearing on the other side', useless=thrust)
     if (ring) bearing%length = max(bearing%radius - bearing%inner_radius, 0.0_wp)
     call keys%real_key('clearance', bearing%clearance, 'm', &
                        'radial clearance, shaft to top foil at rest', positive, &
@@ -113,6 +118,12 @@ contains
     class(bearing_case_type), intent(in) :: self !! what `&bearing` asks for
     thrust = self%kind == kind_thrust
   end function is_thrust
+
+  !> Pads on all sides of the runner, or around the shaft.
+  elemental integer function all_pads(self) result(pads)
+    class(bearing_case_type), intent(in) :: self !! what `&bearing` and `&pads` ask for
+    pads = self%pads*merge(2, 1, self%play > 0.0_wp)
+  end function all_pads
 
   !> What the ramp adds to the gap, from the pad's leading edge on [m].
   elemental real(wp) function ramp_gap(self, angle) result(gap)
@@ -209,6 +220,9 @@ contains
                        'preload narrows the gap most: part of the arc from the leading edge', &
                        from_to(0.0_wp, 1.0_wp), &
                        useless=unless(.not. bearing%is_thrust(), needs_journal))
+    call keys%rule(pads_group, 'count', bearing%play > 0.0_wp .and. 2*bearing%pads > most_pads, &
+                   'must be '//text(most_pads/2)//' or less with axial_play in &bearing: both '// &
+                   'sides have as many')
     call check_edges(keys, bearing, first)
     call check_arc(keys, bearing, gap)
     bearing%leading_edge_angle = first

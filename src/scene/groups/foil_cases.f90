@@ -388,7 +388,7 @@ contains
     call bump_list_key(keys, 'corner_gap', foil%corner_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s two corner lines and the sleeve', not_negative, &
                        '0: all corners touch')
-    call read_height_deviation(keys, foil, gaps, foil%strips*bearing%pads)
+    call read_height_deviation(keys, foil, gaps, foil%strips*bearing%all_pads())
     call keys%real_list_key('crest_angles', foil%crest_angles, longest_list, 'rad', 'where '// &
                             'the crests under a plate stand, from the leading edge of the pad '// &
                             'on', at_least(0.0_wp), .false., 'from `pitch`')

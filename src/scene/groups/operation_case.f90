@@ -4,6 +4,7 @@ module gfb_operation_case
   use gfb_units, only: rpm
   use gfb_bearing_case, only: bearing_case_type, kind_journal, needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type, no_default, any_value, positive, unless
+  use gfb_text, only: text
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
                             is_bearing, is_structure, misplaced_group
   implicit none (type, external)
@@ -81,7 +82,8 @@ contains
                               default='required for a fixed position', &
                               given=operation%eccentricity_given, useless=journal)
     call keys%real_key('axial_load', operation%axial_load, 'N', 'force that presses the runner '// &
-                       'of a thrust bearing on its pads', positive, &
+                       'of a thrust bearing on its pads', &
+                       merge(any_value, positive, bearing%play > 0.0_wp), &
                        ring .and. analysis == analysis_equilibrium, default=no_default, &
                        useless=thrust)
     call keys%real_key('axial_gap', operation%axial_gap, 'm', 'gap from the land of its pads '// &
@@ -89,6 +91,9 @@ contains
                        'for an equilibrium starts', positive, &
                        ring .and. analysis == analysis_fixed_position, default=no_default, &
                        given=operation%axial_gap_given, useless=thrust)
+    call keys%rule('operation', 'axial_gap', bearing%play > 0.0_wp .and. &
+                   operation%axial_gap >= bearing%play, 'must be less than axial_play in '// &
+                   '&bearing, '//text(bearing%play)//' m')
     call keys%real_vector_key('moment', operation%moment, 'N m', 'external moment on the shaft '// &
                               'of a thrust bearing, about x and y; with it the tilt is found, '// &
                               'and `tilt` is where the search starts', any_value, .false., &

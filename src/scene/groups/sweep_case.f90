@@ -71,7 +71,7 @@ contains
                                  'axial_gap: of a thrust bearing')
     rule = any_value
     if (sweep%parameter == sweep_load) rule = not_negative
-    if (any(sweep%parameter == [sweep_axial_load, sweep_axial_gap])) rule = positive
+    if (sweep%parameter == sweep_axial_gap) rule = positive
     call keys%real_list_key('values', sweep%values, longest_list, trim(units(sweep%parameter)), &
                             'values of the parameter, in the order in which they are computed', &
                             rule)

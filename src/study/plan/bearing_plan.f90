@@ -120,7 +120,7 @@ contains
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_plan_type), intent(out) :: plan !! what was chosen
-    integer :: nodes, films
+    integer :: nodes, films, sides
 
     plan%order = scene%model%film_order
     plan%circumferential = scene%mesh%circumferential_elements
@@ -154,17 +154,24 @@ contains
                   trim(merge(' biquadratic', '            ', &
                              plan%order == film_order_biquadratic))// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved')
+    sides = scene%bearing%all_pads()/scene%bearing%pads
+    if (sides > 1) then
+      call log%line('runner between two bearings: a mirror image of this one faces its '// &
+                    'other side; both gaps are '//text(scene%bearing%play)//' m together')
+    end if
     if (scene%bearing%pads > 1) then
       if (solves_one_pad(scene)) then
         call log%line('pads: '//text(scene%bearing%pads)// &
+                      trim(merge(' a side', '       ', sides > 1))// &
                       ', equal under an aligned runner: one is solved for all')
       else
-        call log%line('pads: '//text(scene%bearing%pads)// &
+        call log%line('pads: '//text(scene%bearing%all_pads())// &
                       ', each with such a film and foils of its own')
       end if
     end if
-    films = scene%bearing%pads*merge(2, 1, scene%rotor%distance_in_time > 0.0_wp) ! two bearings
-    if (solves_one_pad(scene)) films = 1
+    films = scene%bearing%all_pads()
+    if (scene%rotor%distance_in_time > 0.0_wp) films = 2*films ! two bearings
+    if (solves_one_pad(scene)) films = sides
     call show_few(films*nodes, scene, log)
     plan%memory = film_memory(films*nodes, rank_count())
     if (scene%model%foil == foil_plate) plan%memory = plate_memory(films*nodes)

@@ -144,7 +144,7 @@ contains
     real(wp), parameter :: a_node = 1.0e4_wp, of_shells = 1.5_wp !! [B], [1]
 
     bytes = cold*merge(of_shells, 1.0_wp, scene%model%foil == foil_shell) &
-      + a_node*real(nodes*scene%bearing%pads, wp)
+      + a_node*real(nodes*scene%bearing%all_pads(), wp)
   end function heated_memory
 
   !> All ranks together, with what each process takes by itself [B].

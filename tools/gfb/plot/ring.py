@@ -70,6 +70,8 @@ def draw_foil(path, file):
     shape = shape_of(path, file)
     fields, points = file["VTKHDF/PointData"], 1.0e3*file["VTKHDF/Points"][...].reshape(shape)
     moved = fields["displacement"][...].reshape(shape)[:, :, 2]
+    if points[:, :, 2].mean() > 0.0:  # of the bearing on the runner's other side, which is drawn as if it faced up, too
+        moved, points = -moved, points*[1.0, 1.0, -1.0]
     away = -1.0e6*moved
     bands = round_numbers(BANDS).tick_values(away.min(), away.max()) if numpy.ptp(away) > 0.0 else BANDS
     figure = pyplot.figure(figsize=(11.0, 5.2), layout="constrained")
