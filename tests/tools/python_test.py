@@ -47,6 +47,40 @@ class PythonTest(unittest.TestCase):
         numpy.testing.assert_array_equal(result.data.minimum_gap, read_history(f"{result.stem}.h5")["minimum_gap"])
         self.assertEqual(result.data["load"].dims, ("point",))
 
+    def test_models(self):
+        case = gfb.Case(SMALL)
+        case["operation%load"] = (-10.0, 0.0)
+        for key, value in {"thickness": 1.0e-4, "half_length": 1.8e-3, "pitch": 5.0e-3, "height": 5.0e-4, "bumps": 25,
+                           "youngs_modulus": 2.1e11, "poissons_ratio": 0.3, "strips": 2, "cut_width": 1.0e-3}.items():
+            case[f"bump_foil%{key}"] = value
+        case["top_foil%thickness"], case["contact%friction_top"], case["contact%friction_sleeve"] = 1.0e-4, 0.1, 0.1
+        for key, value in {"youngs_modulus": 2.1e11, "poissons_ratio": 0.3}.items():
+            case[f"top_foil%{key}"] = value
+        models = gfb.compare_models(case, ("rigid", "elastic_foundation", "nothing"), self.folder)
+        self.assertEqual(list(models.data.status.values), [0, 0, 1])
+        self.assertEqual(sorted(models.reasons), ["nothing"])
+        left_out = " ".join(models.left_out["rigid"])
+        for word in ("`&contact`", "`strips`", "`cut_width`"):
+            self.assertIn(word, left_out)
+        rigid = gfb.Case(SMALL)
+        rigid["operation%load"] = (-10.0, 0.0)
+        self.assertAlmostEqual(float(models.data.minimum_gap[0])/gfb.run(rigid, self.folder)["minimum_gap"], 1.0, delta=1.0e-12)
+        table = models.table()
+        self.assertIn("| minimum_gap | um |", table)
+        self.assertIn("not possible", table)
+        self.assertGreater(models.plot(self.folder/"models.png").stat().st_size, 10000)
+        written = (self.folder/"models_rigid.summary").stat().st_mtime_ns
+        gfb.compare_models(case, ("rigid",), self.folder)
+        self.assertEqual((self.folder/"models_rigid.summary").stat().st_mtime_ns, written, "what is there is computed again")
+
+    def test_sectors(self):
+        case = gfb.Case.template("thrust")
+        case["scene%analysis"] = "equilibrium"
+        film = gfb.run(case, self.folder, "thrust").film
+        self.assertEqual(film.gap.dims, ("theta", "radius"))
+        self.assertAlmostEqual(float(film.radius[-1]), case["bearing%outer_radius"], delta=1e-12)
+        self.assertEqual(set(film["pad"].values.ravel()), set(range(1, int(case["pads%count"]) + 1)))
+
     def test_no_answer(self):
         case = gfb.Case(SMALL)
         case["operation%load"] = (-1.0e9, 0.0)

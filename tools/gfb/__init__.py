@@ -1,4 +1,4 @@
-"""gfb from Python: `gfb.read`, `gfb.Case`, `gfb.run`, `gfb.study`; and what is behind the commands of tools/.
+"""gfb from Python: `gfb.read`, `gfb.Case`, `gfb.run`, `gfb.study`, `gfb.compare_models`; and what is behind the commands of tools/.
 
 What a name needs is imported where it is asked for: the commands of tools/ do without xarray."""
 
@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from gfb.case import Case, CaseError
     from gfb.door import Result, RunError, run, study
+    from gfb.models import Models, compare_models
     from gfb.reading import read
 
-__all__ = ["Case", "CaseError", "Result", "RunError", "read", "run", "study"]
+__all__ = ["Case", "CaseError", "Models", "Result", "RunError", "compare_models", "read", "run", "study"]
 __version__ = "0.1.0"
 
 _HOMES = {"Case": "gfb.case", "CaseError": "gfb.case", "Result": "gfb.door", "RunError": "gfb.door",
-          "study": "gfb.door", "read": "gfb.reading"}
+          "study": "gfb.door", "read": "gfb.reading", "Models": "gfb.models", "compare_models": "gfb.models"}
 
 
 def missing(what: str, error: ModuleNotFoundError) -> ImportError:

@@ -12,6 +12,7 @@ import xarray
 from gfb import steps
 from gfb.results import Unreadable, open_results, reading, text_of
 
+SAME_ANGLE = 1.0e-9  # rad
 PROVENANCE = ("scene", "provenance")  # groups whose texts become attributes
 
 
@@ -20,7 +21,7 @@ def read(path: str | os.PathLike[str]) -> xarray.Dataset:
 
     A case file: every number of the summary is a variable without dimension. Where the case has several points or load
     steps, names of the history have a value each along `point`. Other arrays are called by their path, such as
-    `contact_top_normal_force`. A film: fields over `theta` and `z`; a foil: fields over `node`; of `<case>.<part>.steps.vtkhdf` also
+    `contact_top_normal_force`. A film: fields over `theta` and `z`, of sectors over `theta` and `radius`; a foil: fields over `node`; of `<case>.<part>.steps.vtkhdf` also
     along `point`, with what the sweep changes as its coordinate. Every variable has
     `units` and `long_name`; texts, such as the case itself, are attributes. Raises `FileNotFoundError`, and
     `gfb.results.Unreadable` (an `OSError`) for what is damaged or none of gfb's files."""
@@ -100,12 +101,18 @@ def surface(group: h5py.Group) -> xarray.Dataset:
     points = group["Points"][...]
     fields = {name: (data[...], described(data)) for name, data in group["PointData"].items()}
     if "theta" in fields:
-        rows = int((points[:, 0] == points[0, 0]).sum())
+        theta = fields.pop("theta")[0]
+        ring = bool(numpy.ptp(points[:, 1]) > numpy.ptp(points[:, 2]))  # sectors lie across the axis
+        rows = int(numpy.argmax(abs(theta - theta[0]) > SAME_ANGLE)) if ring else int((points[:, 0] == points[0, 0]).sum())
         shape = (len(points)//rows, rows)
-        coordinates = {"theta": ("theta", fields.pop("theta")[0].reshape(shape)[:, 0], {"units": "rad"}),
-                       "x": ("theta", points[:, 0].reshape(shape)[:, 0], {"units": "m"}),
-                       "z": ("z", points[:, 2].reshape(shape)[0], {"units": "m"})}
-        return xarray.Dataset({name: (("theta", "z"), values.reshape(shape), words) for name, (values, words) in fields.items()},
+        coordinates = {"theta": ("theta", theta.reshape(shape)[:, 0], {"units": "rad"})}
+        across = "radius" if ring else "z"
+        if ring:
+            coordinates["radius"] = ("radius", numpy.hypot(points[:rows, 0], points[:rows, 1]), {"units": "m"})
+        else:
+            coordinates["x"] = ("theta", points[:, 0].reshape(shape)[:, 0], {"units": "m"})
+            coordinates["z"] = ("z", points[:, 2].reshape(shape)[0], {"units": "m"})
+        return xarray.Dataset({name: (("theta", across), values.reshape(shape), words) for name, (values, words) in fields.items()},
                               coords=coordinates)
     coordinates = {axis: ("node", points[:, i], {"units": "m"}) for i, axis in enumerate("xyz")}
     return xarray.Dataset({name: (("node", "component")[:numpy.ndim(values)], values, words)
