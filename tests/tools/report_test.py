@@ -12,6 +12,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
+from gfb.report.glance import glance, sketch  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 
 VOID = {"meta", "link", "img", "br"}
@@ -82,6 +83,9 @@ class ReportTest(unittest.TestCase):
         self.assertIn(f"{self.first['minimum_gap']:.6g}", words)
         self.assertRegex(words, r"minimum_gap [0-9.e-]+ [0-9.e-]+ ± [0-9.e-]+ m smallest film thickness")
         self.assertIn("48 x 8", words)
+        self.assertRegex(words, rf"Answer: first .*thinnest film {1.0e6*self.first['minimum_gap']:.4g} um .*load on the shaft 20 N 12\.5 kPa")
+        self.assertRegex(words, r"Answer: second .*thinnest film [0-9.]+ ± [0-9.]+ um")
+        self.assertRegex(words, rf"hottest film {self.first['maximum_film_temperature'] - 273.15:.4g} °C shaft 46\.85 °C")
         self.assertIn("program_version", words)
         self.assertEqual(sum(source.startswith("data:image/png") for source in page.sources), 8)  # three of each, two of heat
         flows = {name: self.first[name] for name in ("power_loss", "heat_to_shaft", "heat_to_top_foil", "heat_by_gas")}
@@ -97,7 +101,30 @@ class ReportTest(unittest.TestCase):
         self.assertEqual((page.open, page.broken), ([], []))
         words = " ".join(" ".join(page.words).split())
         self.assertIn("No answer was found", words)
+        self.assertRegex(words, r"Last state reached load , .*thinnest film")
         self.assertRegex(words, r"bearing%clearance 2\.5e-05")
+
+    def test_margins(self):
+        """What is asked first, against what the case says: better and worse than that."""
+        def row(name, value, unit):
+            return {name: {"value": value, "unit": unit, "meaning": ""}}
+
+        case = gfb.Case(SMALL | {"rotor": {"mass": 0.5}, "shaft_contact": {"roughness": 1.0e-6}})
+        some = row("minimum_gap", 4.0e-6, "m") | row("load_capacity", 15.0, "N") | row("critical_mass", 0.25, "kg") | \
+            row("lift_off_speed_rpm", 5.0e3, "rpm") | row("growth_rate", 3.0, "1/s") | row("whirl_frequency", 628.3185307, "rad/s")
+        rows = {words: (value, verdict, bad) for words, value, verdict, bad in glance(some, case)}
+        self.assertEqual(rows["thinnest film"], ("4 um", "4 times the roughness", False))
+        self.assertEqual(rows["load capacity"], ("15 N", "0.75 times the 20 N of the case", True))
+        self.assertEqual(rows["critical mass"], ("0.25 kg", "the rotor brings 0.5 kg: it whirls", True))
+        self.assertEqual(rows["lift-off speed"], ("5,000 rpm", "25 % of 20,000 rpm", False))
+        self.assertEqual(rows["rotor's least damped mode"], ("100 Hz", "grows", True))
+        case["rotor%mass"], case["operation%load"] = 0.1, (-3.0, 4.0)
+        rows = {words: (verdict, bad) for words, _, verdict, bad in glance(some, case)}
+        self.assertEqual((rows["load capacity"], rows["critical mass"]), (("3 times the 5 N of the case", False), ("the rotor brings 0.1 kg: 2.5 times that", False)))
+        drawn = sketch(some | row("eccentricity_x", -1.0e-5, "m") | row("eccentricity_y", 0.0, "m"), case)
+        self.assertEqual((len(drawn["pads"]), drawn["thinnest"]), (1, (176.0, 100.0)))
+        self.assertAlmostEqual(drawn["load"][2], 70.0)
+        self.assertAlmostEqual(drawn["load"][3], 60.0)
 
     def test_what_is_no_result(self):
         (self.folder/"bad.h5").write_bytes(b"no HDF5")

@@ -2,7 +2,7 @@
 
   tools/report CASE.h5 ...          or CASE.summary, or the name without an ending; several stand side by side
 
-The page has the answer with units and estimated errors, what the case files say and where they differ, what the scene
+The page has what one asks first (film, load, limits, power, stability, with margins), all results with units and errors, what the case files say and where they differ, what the scene
 needed and why (as gfb --check tells it), pictures, the points of a sweep or the load steps, and where the numbers come
 from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be written.
 """
@@ -19,8 +19,9 @@ import jinja2
 
 from gfb.case import Case, program
 from gfb.heat import HEATED, balance
+from gfb.report.glance import glance, sketch
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
-from gfb.tool import draw_into_files, stop
+from gfb.tool import draw_into_files, say, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
@@ -81,7 +82,7 @@ def read_run(stem, gfb):
         converged = bool(summary["converged"]["value"])
     return {"name": stem.name, "title": used.groups.get("scene", {}).get("title", ""), "summary": summary,
             "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
-            "heat": heat_rows(summary), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
+            "glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
             "needs": needs_of(case_file, gfb), "pictures": pictures_of(stem, points, shows)}
 
 
@@ -136,7 +137,7 @@ def pictures_of(stem, points, shows):
     if "transient" in shows:
         wanted.append(("orbit and thinnest film", [f"{stem}.h5"]))
     elif points > 1:
-        wanted.append(("along the points or load steps", [f"{stem}.h5"]))
+        wanted.insert(0, ("along the points or load steps", [f"{stem}.h5"]))
     wanted += [(words, [f"{stem}.h5", "--show", show]) for show, words in SHOWN.items() if show in shows]
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder)/"picture.png"
@@ -144,7 +145,10 @@ def pictures_of(stem, points, shows):
         for path in sorted({arguments[0] for _, arguments in there}):
             with reading(path):
                 open_results(path).close()  # what is damaged, or no file of gfb, is no picture that could be left out
-        found = [(words, drawn(arguments, picture)) for words, arguments in there]
+        found = []
+        for number, (words, arguments) in enumerate(there, 1):
+            say(f"{stem.name}: picture {number} of {len(there)}: {words}")
+            found.append((words, drawn(arguments, picture)))
     return [(words, data) for words, data in found if data]
 
 

@@ -1,0 +1,194 @@
+"""The page's first block: what an engineer asks first, in the units people speak, each with a margin where the case has what it
+is measured against, and a sketch of the bearing with its load and its thinnest film."""
+
+import math
+
+MOST_POINTS = 40  # of an arc of the sketch
+UNITS = {"m": ("um", 1.0e6), "Pa": ("kPa", 1.0e-3), "N m": ("mN m", 1.0e3), "N/m": ("MN/m", 1.0e-6), "rad": ("mrad", 1.0e3)}
+KELVIN = 273.15
+
+
+class Results:
+    """Results and keys of one run."""
+
+    def __init__(self, summary, case):
+        self.summary, self.case = summary, case
+
+    def value(self, name):
+        """A number; None where there is none."""
+        value = self.summary.get(name, {}).get("value")
+        return value if isinstance(value, float) and math.isfinite(value) else None
+
+    def key(self, name, default=None):
+        """A number of the case."""
+        value = self.case[name] if name in self.case else default
+        return value if not isinstance(value, (bool, str)) else default
+
+    def words(self, name):
+        """A result in readable units, with its error where that is known; empty where there is none."""
+        value = self.value(name)
+        if value is None:
+            return ""
+        unit, scale = UNITS.get(self.summary[name]["unit"], (self.summary[name]["unit"], 1.0))
+        error = self.value(f"{name}_error")
+        return f"{scale*value:.4g}" + (f" ± {scale*error:.2g}" if error is not None else "") + (f" {unit}" if unit != "1" else "")
+
+
+def glance(summary, case):
+    """(what, how much, margin or verdict, whether that is a bad one) of one run."""
+    results = Results(summary, case)
+    return [row for question in (film, load, limits, losses, balance, vibrations, rotor, foils, heat) for row in question(results)]
+
+
+def film(results):
+    """How thin the film is, and where."""
+    words = results.words("minimum_gap")
+    if not words:
+        return
+    where, edge, middle = "", results.value("minimum_gap_edge"), results.value("minimum_gap_midplane")
+    if results.value("minimum_gap_radius") is not None:
+        where = f"at radius {1.0e3*results.value('minimum_gap_radius'):.3g} mm, {math.degrees(results.value('minimum_gap_angle')):.0f} deg"
+    elif edge is not None and middle is not None and max(edge, middle) > 1.02*min(edge, middle):
+        where = "at the bearing's edge" if edge < middle else "at the midplane"
+    rough = results.key("shaft_contact%roughness")
+    if rough:
+        where += f"{', ' if where else ''}{results.value('minimum_gap')/rough:.3g} times the roughness"
+    yield "thinnest film", words, where, False
+
+
+def carried(results):
+    """The load of the case [N]; None without one."""
+    axial = results.key("operation%axial_load")
+    if axial is not None:
+        return abs(float(axial))
+    both = results.key("operation%load")
+    return math.hypot(*both) if isinstance(both, tuple) and len(both) == 2 else None
+
+
+def load(results):
+    """What it carries, and over which area."""
+    force = results.value("axial_force")
+    if force is not None:
+        yield "load on the runner", f"{force:.4g} N", f"{results.words('mean_pressure')} over the pads", False
+    elif results.value("force_x") is not None:
+        force = math.hypot(results.value("force_x"), results.value("force_y"))
+        radius, length = results.key("bearing%radius"), results.key("bearing%length")
+        area = f"{1.0e-3*force/(2.0*radius*length):.3g} kPa over length times diameter" if radius and length else ""
+        yield "load on the shaft", f"{force:.4g} N", area, False
+    if results.value("opposite_force") is not None:
+        yield "runner's other side", f"{results.value('opposite_force'):.4g} N", f"{results.words('opposite_gap')} of gap", False
+    if results.value("axial_gap") is not None:
+        yield "axial gap", results.words("axial_gap"), "", False
+
+
+def limits(results):
+    """Capacity, lift-off and misalignment, against the case's load, speed and tilt."""
+    reached = results.value("limit_reached")
+    ends = "" if reached is None or reached > 0.0 else "; the branch of answers ends before the limit asked for"
+    capacity, wanted = results.value("load_capacity"), carried(results)
+    if capacity is not None:
+        margin = f"{capacity/wanted:.3g} times the {wanted:.4g} N of the case" if wanted else ""
+        yield "load capacity", f"{capacity:.4g} N", margin + ends, bool(wanted) and capacity < wanted
+    lift_off, speed = results.value("lift_off_speed_rpm"), results.key("operation%speed_rpm")
+    if lift_off is not None:
+        yield "lift-off speed", f"{lift_off:,.0f} rpm", (f"{100.0*lift_off/speed:.3g} % of {speed:,.0f} rpm" if speed else "") + ends, \
+            bool(speed) and lift_off > speed
+    if results.value("misalignment_allowance") is not None:
+        yield "misalignment left", results.words("misalignment_allowance"), ends.lstrip("; "), False
+
+
+def losses(results):
+    """Power and torque."""
+    if results.value("power_loss") is not None:
+        yield "power loss", f"{results.value('power_loss'):.4g} W", f"friction torque {results.words('friction_torque')}", False
+
+
+def balance(results):
+    """Whether the equilibrium is a stable one, where that was asked."""
+    unstable = results.value("stability")
+    if unstable is not None:
+        yield "foils at rest", "stable" if unstable == 0.0 else "unstable", \
+            "" if unstable == 0.0 else f"{-unstable:.0f} ways in which the foils leave this equilibrium", unstable != 0.0
+
+
+def vibrations(results):
+    """Stiffness, and the mass that whirls."""
+    stiffness = [results.value(f"stiffness_{axes}") for axes in ("xx", "yy", "zz") if results.value(f"stiffness_{axes}") is not None]
+    if stiffness:
+        yield "stiffness", ", ".join(f"{1.0e-6*value:.4g}" for value in stiffness) + " MN/m", \
+            "along " + ("x, y" if len(stiffness) > 1 else "the axis"), False
+    critical, mass = results.value("critical_mass"), results.key("rotor%mass")
+    if critical is not None:
+        margin = f"the rotor brings {mass:.4g} kg: {'it whirls' if mass > critical else f'{critical/mass:.3g} times that'}" if mass \
+            else "a heavier rotor whirls"
+        yield "critical mass", f"{critical:.4g} kg", margin, bool(mass) and mass > critical
+
+
+def rotor(results):
+    """How the rotor's least damped mode goes on, and at which speed it begins to grow."""
+    growth = results.value("growth_rate")
+    if growth is not None:
+        frequency = results.value("whirl_frequency") or results.value("axial_frequency")
+        damped = results.value("damping_ratio")
+        words = f"{frequency/(2.0*math.pi):.4g} Hz" if frequency else ""
+        ratio = f", damping ratio {damped:.3g}" if damped is not None else ""
+        yield "rotor's least damped mode", words, ("dies out" if growth < 0.0 else "grows") + ratio, growth >= 0.0
+    onset, speed = results.value("onset_speed_rpm"), results.key("operation%speed_rpm")
+    if onset is not None:
+        yield "onset of whirl", f"{onset:,.0f} rpm", f"{onset/speed:.3g} times {speed:,.0f} rpm" if speed else "", False
+
+
+def foils(results):
+    """How far the foils give way, and how much of them is idle."""
+    lifted = results.value("lifted_length")
+    idle = "" if lifted is None else f"{100.0*lifted:.3g} % of their length"
+    if (results.value("maximum_deflection") or 0.0) > 0.0:
+        yield "foil gives way by", results.words("maximum_deflection"), "", False
+    if idle:
+        yield "crests that touch nothing", idle, "", False
+
+
+def heat(results):
+    """How hot it gets, and what clearance is left."""
+    for words, name in (("hottest film", "maximum_film_temperature"), ("shaft", "shaft_temperature"), ("sleeve", "sleeve_temperature")):
+        if results.value(name) is not None:
+            yield words, f"{results.value(name) - KELVIN:.4g} °C", "", False
+    if results.value("running_clearance") is not None:
+        cold = results.key("bearing%clearance")
+        yield "clearance when it runs", results.words("running_clearance"), f"{1.0e6*cold:.4g} um cold" if cold else "", False
+
+
+# --- the sketch ---
+
+def sketch(summary, case):
+    """Lines of a picture, 200 x 200, x to the right and y up: pads, load and thinnest film; None where there is no film."""
+    results = Results(summary, case)
+    if results.value("minimum_gap") is None:
+        return None
+    count = int(results.key("pads%count", 1) or 1)
+    first = results.key("pads%first_leading_edge", results.key("bearing%leading_edge_angle", 0.0)) or 0.0
+    arc = results.key("pads%arc") or 2.0*math.pi/count - (results.key("pads%gap") or 0.0) - (first if count == 1 else 0.0)
+    ring = results.value("minimum_gap_radius") is not None
+    drawn = {"pads": [], "shaft": not ring, "load": None, "thinnest": None, "ring": ring}
+    inner = 85.0*(results.key("bearing%inner_radius") or 0.5)/results.key("bearing%outer_radius") if ring else 72.0
+    for pad in range(count):
+        begins = first + 2.0*math.pi*pad/count
+        outside = [place(85.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS + 1)]
+        inside = [place(inner if ring else 80.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS, -1, -1)]
+        drawn["pads"].append(" ".join(f"{x:.1f},{y:.1f}" for x, y in outside + inside))
+    if ring:
+        at = 85.0*results.value("minimum_gap_radius")/results.key("bearing%outer_radius")
+        drawn["thinnest"] = place(at, results.value("minimum_gap_angle"))
+    elif results.value("eccentricity_x") is not None:
+        e = -results.value("eccentricity_x"), -results.value("eccentricity_y")
+        size = math.hypot(*e)
+        drawn["thinnest"] = place(76.0, math.atan2(e[1], e[0])) if size > 0.0 else None
+        both = results.key("operation%load")
+        if isinstance(both, tuple) and math.hypot(*both) > 0.0:
+            drawn["load"] = (*place(8.0, math.atan2(both[1], both[0])), *place(50.0, math.atan2(both[1], both[0])))
+    return drawn
+
+
+def place(radius, angle):
+    """A point of the sketch."""
+    return 100.0 + radius*math.cos(angle), 100.0 - radius*math.sin(angle)
