@@ -73,6 +73,37 @@ class PythonTest(unittest.TestCase):
         gfb.compare_models(case, ("rigid",), self.folder)
         self.assertEqual((self.folder/"models_rigid.summary").stat().st_mtime_ns, written, "what is there is computed again")
 
+    def test_design(self):
+        case = gfb.Case(SMALL | {"rotor": {"mass": 2.0}})
+        said = []
+        found = gfb.design(case, self.folder, smallest_gap=8.0e-6, tell=said.append)
+        self.assertEqual([part.name for part in found.parts if part.stem is None], ["lift_off"])
+        self.assertTrue(all(part.question in " ".join(said) for part in found.parts if part.stem is not None))
+        rows = {question: (answer, verdict) for question, answer, verdict, _ in found.rows}
+        point = gfb.results.read_summary(self.folder/"design_point.summary")[0]
+        self.assertEqual(rows["thinnest film"][0], f"{1.0e6*point['minimum_gap']:.4g} um")
+        plain = gfb.run(gfb.Case(SMALL), self.folder)
+        self.assertAlmostEqual(point["minimum_gap"]/plain["minimum_gap"], 1.0, delta=1.0e-9)
+        self.assertIn(f"{point['critical_mass']:.4g} kg", rows["critical mass"][0])
+        # A full bearing with a slit at theta = 0: loads from all sides, the case's among them.
+        films = read_history(self.folder/"design_directions.h5")["minimum_gap"]
+        self.assertAlmostEqual(films[0]/plain["minimum_gap"], 1.0, delta=1.0e-9)
+        self.assertIn(f"thinnest film {1.0e6*films.min():.4g} um", rows["load from every direction"][0])
+        capacity = read_history(self.folder/"design_capacity.h5")
+        self.assertIn(f"{capacity['load_capacity'][2]/20.0:.3g} times the 20 N", rows["load capacity over the speed, to a film of 8 um"][1])
+        self.assertIn("no &shaft_contact", rows["lift-off speed"][1])
+        unbalance = gfb.Case.read(self.folder/"design_orbit.nml")["unbalance%unbalance"]
+        self.assertAlmostEqual(unbalance/(2.0*2.5e-3/(20000.0*numpy.pi/30.0)), 1.0, delta=1.0e-12)
+        self.assertIn("± ", rows["what tolerances do to the thinnest film"][0])
+        self.assertIn("| question | answer | margin |", found.table())
+        times = {path: path.stat().st_mtime_ns for path in self.folder.glob("design_*.summary")}
+        again = gfb.design(case, self.folder, smallest_gap=8.0e-6, tell=said.append)
+        self.assertEqual(times, {path: path.stat().st_mtime_ns for path in times}, "what is there is computed again")
+        self.assertEqual(again.rows, found.rows)
+        with self.assertRaises(gfb.CaseError):
+            case["bearing%radius"] = -1.0
+            gfb.design(case, self.folder, "wrong", tell=said.append)
+
     def test_sectors(self):
         case = gfb.Case.template("thrust")
         case["scene%analysis"] = "equilibrium"

@@ -1,4 +1,4 @@
-"""Commands of an installed package, `gfb-plot`, `gfb-report`, `gfb-coefficients`: those of tools/ with the same names."""
+"""Commands of an installed package, `gfb-plot`, `gfb-report`, `gfb-design`, `gfb-coefficients`: those of tools/ with the same names."""
 
 import importlib
 
@@ -13,6 +13,11 @@ def plot():
 def report():
     """Makes a page of results."""
     return run(lambda: importlib.import_module("gfb.report.main").main())
+
+
+def design():
+    """The whole study of a bearing."""
+    return run(lambda: importlib.import_module("gfb.design_study").main())
 
 
 def coefficients():

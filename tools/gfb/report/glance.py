@@ -56,8 +56,9 @@ def film(results):
     yield "thinnest film", words, where, False
 
 
-def carried(results):
-    """The load of the case [N]; None without one."""
+def carried_by(case):
+    """The load of a case [N]; None without one."""
+    results = Results({}, case)
     axial = results.key("operation%axial_load")
     if axial is not None:
         return abs(float(axial))
@@ -85,7 +86,7 @@ def limits(results):
     """Capacity, lift-off and misalignment, against the case's load, speed and tilt."""
     reached = results.value("limit_reached")
     ends = "" if reached is None or reached > 0.0 else "; the branch of answers ends before the limit asked for"
-    capacity, wanted = results.value("load_capacity"), carried(results)
+    capacity, wanted = results.value("load_capacity"), carried_by(results.case)
     if capacity is not None:
         margin = f"{capacity/wanted:.3g} times the {wanted:.4g} N of the case" if wanted else ""
         yield "load capacity", f"{capacity:.4g} N", margin + ends, bool(wanted) and capacity < wanted

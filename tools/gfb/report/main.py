@@ -47,13 +47,19 @@ def main():
         stop(f"{error.filename or error}: there is no such result")
     except Unreadable as error:
         stop(str(error))
-    page = PAGE.get_template("page.html").render(runs=runs, answer=answer_rows(runs), keys=key_rows(runs), origin=origin_rows(runs))
+    print(f"written: {write_page(runs, output)}")
+    return 0
+
+
+def write_page(runs, output, study=(), heading=""):
+    """Writes the page of some runs; study: rows as `glance` has them, which stand before all, and its heading."""
+    page = PAGE.get_template("page.html").render(runs=runs, study=study, heading=heading, answer=answer_rows(runs), keys=key_rows(runs),
+                                                 origin=origin_rows(runs))
     try:
         output.write_text(page, encoding="utf-8")
     except OSError as error:
         stop(f"{output}: {error.strerror}", 3)
-    print(f"written: {output}")
-    return 0
+    return output
 
 
 def stem_of(name):
@@ -63,8 +69,8 @@ def stem_of(name):
     return pathlib.Path(name)
 
 
-def read_run(stem, gfb):
-    """All that the page has of a result."""
+def read_run(stem, gfb, title="", pictures=True, curve=False):
+    """All that the page has of a result; curve: of several points no other picture."""
     path = pathlib.Path(f"{stem}.h5")
     if not path.exists():
         raise FileNotFoundError(2, "no such file", str(path))
@@ -80,10 +86,11 @@ def read_run(stem, gfb):
         shows = [name for name in ("contact", "dynamics", "transient") if name in file] + ["heat"]*(HEATED in table) + ["ring"]*("axial_gap" in table)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
-    return {"name": stem.name, "title": used.groups.get("scene", {}).get("title", ""), "summary": summary,
-            "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
+    drawings = pictures_of(stem, points, shows, curve) if pictures else []
+    return {"name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
+            "converged": converged, "heads": heads, "rows": rows if points > 1 else [], "all_rows": rows,
             "glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
-            "needs": needs_of(case_file, gfb), "pictures": pictures_of(stem, points, shows)}
+            "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
 
 
 def in_order(stem, group):
@@ -123,8 +130,8 @@ def needs_of(case_file, gfb):
 
 # --- pictures ---
 
-def pictures_of(stem, points, shows):
-    """Title and picture of everything that tools/plot draws of a result; what it cannot draw is left out."""
+def pictures_of(stem, points, shows, curve=False):
+    """Title and picture of everything that tools/plot draws of a result, or of its points or time alone; what it cannot draw is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
     if "ring" not in shows:
         wanted[1:1] = [("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]),
@@ -139,6 +146,8 @@ def pictures_of(stem, points, shows):
     elif points > 1:
         wanted.insert(0, ("along the points or load steps", [f"{stem}.h5"]))
     wanted += [(words, [f"{stem}.h5", "--show", show]) for show, words in SHOWN.items() if show in shows]
+    if curve and (points > 1 or "transient" in shows):
+        wanted = [one for one in wanted if one[1] == [f"{stem}.h5"]]
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder)/"picture.png"
         there = [(words, arguments) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]

@@ -1,0 +1,315 @@
+"""The whole study of one bearing: film, directions of the load, capacity and lift-off over the speed, vibrations, whirl, orbit under a
+balance grade, misalignment, tolerances.
+
+  tools/design CASE.nml          a page, results/CASE.design/CASE.html, and the same as a table
+
+Each part is a case file beside its results, which tools/run and tools/report take, too. Called again, it computes what is not there
+yet. A part that does not apply is left out, in words. Exit status: 0 the page is written, 1 the case is wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import concurrent.futures
+import dataclasses
+import math
+import os
+import pathlib
+import re
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from gfb.case import Case, CaseError
+from gfb.door import DONE, ENDINGS, find_member, run_member
+from gfb.report.glance import carried_by, glance
+from gfb.report.main import read_run, write_page
+from gfb.tool import draw_into_files, say
+
+DIRECTIONS = 12                      # of the load, around the bearing
+SPEEDS = (0.5, 0.75, 1.0, 1.25)      # over the speed of the case, of capacities
+WHIRL_SPEEDS = (0.4, 0.55, 0.7, 0.85, 1.0, 1.15, 1.3)
+FREQUENCY_RATIOS = (0.25, 0.5, 1.0)  # of vibrations over the speed, where the case has none
+SMALLEST_GAP = 4.0e-6                # m: the film at which load and tilt have reached their limit, where the case has none
+GRADE = 2.5                          # mm/s, ISO 21940-11: of turbines
+IDLE = re.compile(r"&sensitivity: parameters(?:\(\d+\))? = '([\w%]+)'")  # a key whose tolerance is none of this case
+ORBIT_TURNS, ORBIT_STEADY = 60, 1.0e-3
+STATE = ("scene", "bearing", "pads", "ramp", "bore", "gas", "shaft_contact", "thermal", "operation", "model", "mesh", "top_foil",
+         "bump_foil", "contact", "solver", "output")
+# What a drawing leaves open, as a standard deviation: a length [m], or a part of the value.
+TOLERANCES = {"bearing%clearance": (2.0e-6, 0.0), "bump_foil%height": (1.0e-5, 0.0), "ramp%height": (2.0e-6, 0.0),
+              "bump_foil%thickness": (0.0, 0.03), "bump_foil%half_length": (0.0, 0.02), "top_foil%thickness": (0.0, 0.03),
+              "model%foundation_stiffness": (0.0, 0.2), "model%crest_stiffness": (0.0, 0.2), "gas%viscosity": (0.0, 0.02),
+              "contact%friction_top": (0.05, 0.0), "contact%friction_sleeve": (0.05, 0.0)}
+
+
+@dataclasses.dataclass
+class Part:
+    """One part of the study."""
+
+    name: str                 # of its files
+    question: str
+    case: Case | None = None
+    left_out: str = ""        # why there is no case, or no answer
+    stem: pathlib.Path | None = None  # of its results, where there are any
+
+
+@dataclasses.dataclass
+class Design:
+    """What a study found."""
+
+    parts: list[Part]
+    rows: list[tuple[str, str, str, bool]]  # question, answer, margin or verdict, whether that is a bad one
+    folder: pathlib.Path
+    name: str
+
+    def table(self) -> str:
+        """The answers as a Markdown table."""
+        lines = ["| question | answer | margin |", "| --- | --- | --- |",
+                 *(f"| {question} | {answer} | {'**' if bad else ''}{verdict}{'**' if bad and verdict else ''} |"
+                   for question, answer, verdict, bad in self.rows)]
+        return "\n".join(lines) + "\n"
+
+    def page(self, gfb: str | os.PathLike[str] | None = None) -> pathlib.Path:
+        """Writes the page of the study."""
+        runs = [read_run(part.stem, gfb, title=part.question, curve=part.name != "point") for part in self.parts if part.stem]
+        return write_page(runs, self.folder/f"{self.name}.html", self.rows, self.name)
+
+
+def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "design", smallest_gap: float | None = None, grade: float = GRADE,
+           processes: int = 1, gfb: str | os.PathLike[str] | None = None, tell: Callable[[str], None] = say) -> Design:
+    """Runs all parts of the study that apply to a case with a load; grade: of the rotor's balance [mm/s]. Raises CaseError where the case
+    itself is wrong."""
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    parts = parts_of(case, smallest_gap, grade)
+    parts[0].case.check(gfb=gfb)
+    for part in parts:
+        while part.case is not None:
+            try:
+                part.case.check(gfb=gfb)
+                break
+            except CaseError as error:
+                if not without_idle_keys(part.case, str(error)):
+                    part.case, part.left_out = None, " ".join(line.partition(": ")[2] for line in str(error).splitlines())
+    todo = [part for part in parts if part.case is not None]
+    done, lock, began = 0, threading.Lock(), time.monotonic()
+
+    def compute(part: Part) -> None:
+        nonlocal done
+        stem = folder/f"{name}_{part.name}"
+        status, _, _ = find_member(part.case, stem) or run_member(part.case, stem, gfb)
+        part.stem = stem if status == DONE else folder/(stem.name + ENDINGS[status].removesuffix(".summary"))
+        with lock:
+            done += 1
+            left = (time.monotonic() - began)*(len(todo) - done)/done
+            tell(f"{done} of {len(todo)}: {part.question}" + ("" if status == DONE else ": no answer")
+                 + (f"; about {left:.0f} s left" if done < len(todo) else ""))
+
+    with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
+        list(pool.map(compute, todo))
+    return Design(parts, rows_of(parts, gfb), folder, name)
+
+
+# --- the parts ---
+
+def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]:
+    """All parts of the study; the first one is the operating point."""
+    thrust = case.groups.get("bearing", {}).get("kind") == "thrust"
+    speed = float(case["operation%speed_rpm"])
+    gap = smallest_gap or (float(case["capacity%smallest_gap"]) if "capacity%smallest_gap" in case else SMALLEST_GAP)
+    whirl = "whirl over the speed" if "rotor%mass" in case else "critical mass over the speed"
+    parts = [with_analysis(case, "point", "at the operating point", "linear_dynamics", ("dynamics", "rotor", "foil_damping"))]
+    if thrust:
+        parts.append(Part("directions", "load from every direction", left_out="a runner is pressed along its axis"))
+    else:
+        angle = math.degrees(math.atan2(*reversed(case["operation%load"])))
+        parts.append(with_analysis(case, "directions", "load from every direction", "equilibrium", sweep={
+            "parameter": "load_angle", "values": tuple(angle + 360.0*i/DIRECTIONS for i in range(DIRECTIONS))}))
+    parts += [
+        with_analysis(case, "capacity", f"load capacity over the speed, to a film of {1.0e6*gap:.3g} um", "load_capacity",
+                      capacity={"smallest_gap": gap}, sweep={"parameter": "speed_rpm", "values": tuple(part*speed for part in SPEEDS)}),
+        with_analysis(case, "misalignment", f"misalignment left, to a film of {1.0e6*gap:.3g} um", "misalignment_allowance",
+                      capacity={"smallest_gap": gap})]
+    if "shaft_contact" in case.groups:
+        parts.append(with_analysis(case, "lift_off", "lift-off speed", "lift_off"))
+    else:
+        parts.append(Part("lift_off", "lift-off speed", left_out="the case has no &shaft_contact: roughness and pressure of the asperities"))
+    if thrust:
+        parts.append(Part("whirl", whirl, left_out="a runner does not whirl along its axis"))
+    else:
+        parts.append(with_analysis(case, "whirl", whirl, "linear_dynamics", ("dynamics", "rotor", "foil_damping"), sweep={
+            "parameter": "speed_rpm", "values": tuple(part*speed for part in WHIRL_SPEEDS)}))
+    parts += [orbit_of(case, grade, speed, thrust), tolerances_of(case)]
+    return parts
+
+
+def with_analysis(case: Case, name: str, question: str, analysis: str, kept: Sequence[str] = (), **groups: dict[str, Any]) -> Part:
+    """A part of the study: the bearing of the case under another analysis."""
+    one = Case({group: keys for group, keys in case.groups.items() if group in (*STATE, *kept)} | groups)
+    one["scene%analysis"] = analysis
+    if analysis == "linear_dynamics" and not {"dynamics%frequencies", "dynamics%frequency_ratios"} & set(one):
+        one["dynamics%frequency_ratios"] = FREQUENCY_RATIOS
+    one["scene%title"] = f"{case.groups['scene'].get('title', '')}: {question}".lstrip(": ")
+    return Part(name, question, one)
+
+
+def orbit_of(case: Case, grade: float, speed: float, thrust: bool) -> Part:
+    """The steady orbit under the unbalance that a grade allows: mass times grade over the angular speed."""
+    question = f"orbit under balance grade G {grade:g}"
+    if thrust or "rotor%mass" not in case:
+        return Part("orbit", question, left_out="a runner is not followed over time" if thrust else "the case has no &rotor with a mass")
+    unbalance = float(case["rotor%mass"])*1.0e-3*grade/(speed*math.pi/30.0)
+    part = with_analysis(case, "orbit", question, "transient", ("rotor", "foil_damping"), unbalance={"unbalance": unbalance},
+                         transient={"turns": ORBIT_TURNS, "steady_tolerance": ORBIT_STEADY})
+    part.case.groups["foil_damping"] = {key: value for key, value in case.groups.get("foil_damping", {}).items() if key != "loss_factor"}
+    if not part.case.groups["foil_damping"]:
+        del part.case.groups["foil_damping"]
+    return part
+
+
+def tolerances_of(case: Case) -> Part:
+    """What a drawing leaves open, and what that does to the film."""
+    there = {key: case[key] for key in TOLERANCES if key in case and isinstance(case[key], float) and case[key] > 0.0}
+    if case.groups.get("model", {}).get("foil") == "rigid":
+        there = {key: value for key, value in there.items() if not key.startswith(("bump_foil", "top_foil", "contact", "model"))}
+    return with_analysis(case, "tolerances", "what tolerances do to the thinnest film", "equilibrium", sensitivity={
+        "parameters": tuple(there), "quantity": "minimum_gap",
+        "tolerances": tuple(length or part*abs(there[key]) for key, (length, part) in TOLERANCES.items() if key in there)})
+
+
+def without_idle_keys(case: Case, complaint: str) -> bool:
+    """Takes the keys that have no effect on the case out of its tolerances; whether there were some, and others are left."""
+    idle = set(IDLE.findall(complaint))
+    if not idle or "sensitivity%parameters" not in case:
+        return False
+    left = [both for both in zip(listed(case["sensitivity%parameters"]), listed(case["sensitivity%tolerances"])) if both[0] not in idle]
+    if left:
+        case["sensitivity%parameters"], case["sensitivity%tolerances"] = (tuple(one) for one in zip(*left))
+    return bool(left)
+
+
+# --- the answers ---
+
+def rows_of(parts: Sequence[Part], gfb: str | os.PathLike[str] | None) -> list[tuple[str, str, str, bool]]:
+    """Question, answer, margin and whether it is a bad one, of all parts."""
+    rows = []
+    for part in parts:
+        if part.stem is None:
+            rows.append((part.question, "left out", part.left_out, False))
+            continue
+        run = read_run(part.stem, gfb, pictures=False)
+        if not run["converged"]:
+            words = [str(run["summary"][name]["value"]) for name in ("not_reached", "ending") if name in run["summary"]]
+            rows.append((part.question, "no answer", ("not reached: " + ", ".join(words) if words else "lost on the way")
+                         + "; the last state reached is below", True))
+        elif part.name == "point":
+            rows += glance(run["summary"], run["used"])
+        else:
+            rows += ANSWERS[part.name](part.question, run)
+    return rows
+
+
+def column(run: dict[str, Any], name: str) -> list[float]:
+    """A column of the points; empty where there is none."""
+    heads = [head for head, _ in run["heads"]]
+    return [float(row[heads.index(name)] or math.nan) for row in run["all_rows"]] if name in heads else []
+
+
+def answer_directions(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
+    """The direction in which the film is thinnest."""
+    angles, films = column(run, "load_angle"), column(run, "minimum_gap")
+    worst, best = min(range(len(films)), key=films.__getitem__), max(range(len(films)), key=films.__getitem__)
+    return [(question, f"thinnest film {1.0e6*films[worst]:.4g} um with it at {angles[worst] % 360.0:.0f} deg",
+             f"{1.0e6*films[best]:.4g} um at {angles[best] % 360.0:.0f} deg", False)]
+
+
+def answer_capacity(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
+    """Capacities over the speed, and the margin at that of the case."""
+    speeds, loads = column(run, "speed_rpm"), column(run, "load_capacity")
+    wanted, own = carried_by(run["used"]), float(run["used"]["operation%speed_rpm"])
+    there = min(range(len(speeds)), key=lambda i: abs(speeds[i] - own))
+    margin = f"{loads[there]/wanted:.3g} times the {wanted:.4g} N of the case" if wanted else ""
+    others = ", ".join(f"{load:.4g} N at {speed:,.0f}" for speed, load in zip(speeds, loads))
+    return [(question, f"{loads[there]:.4g} N at {speeds[there]:,.0f} rpm", margin, bool(wanted) and loads[there] < wanted),
+            ("", others + " rpm", "", False)]
+
+
+def answer_whirl(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
+    """Critical masses and growth over the speed."""
+    speeds, masses, growth = column(run, "speed_rpm"), column(run, "critical_mass"), column(run, "growth_rate")
+    rows = []
+    least = [i for i, mass in enumerate(masses) if mass == mass]
+    if least:
+        at = min(least, key=masses.__getitem__)
+        rows.append((question, f"smallest critical mass {masses[at]:.4g} kg at {speeds[at]:,.0f} rpm", "", False))
+    grows = [speeds[i] for i, rate in enumerate(growth) if rate >= 0.0]
+    if growth:
+        onset = run["summary"].get("onset_speed_rpm", {}).get("value", math.nan)
+        words = f"onset at {onset:,.0f} rpm" if onset == onset else ("grows at " if grows else "dies out at all ") + \
+            (", ".join(f"{speed:,.0f}" for speed in grows) if grows else f"{min(speeds):,.0f} to {max(speeds):,.0f}") + " rpm"
+        own = float(run["used"]["operation%speed_rpm"])
+        rows.append(("the rotor's vibrations", words, f"{onset/own:.3g} times the speed" if onset == onset else "", bool(grows) and min(grows) <= own))
+    return rows or [(question, "no number", "see its log", False)]
+
+
+def answer_orbit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
+    """The orbit's size, and the film that is left."""
+    size = {axis: run["summary"][f"orbit_{axis}"]["value"] for axis in "xy"}
+    film, ending = run["summary"]["minimum_gap_over_time"]["value"], run["summary"].get("not_reached", {}).get("value", "")
+    return [(question, f"{1.0e6*size['x']:.3g} x {1.0e6*size['y']:.3g} um", f"thinnest film {1.0e6*film:.4g} um" + (f"; not reached: {ending}" if ending else ""),
+             bool(ending))]
+
+
+def answer_tolerances(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
+    """The spread of the film, and the three keys that do most of it."""
+    case, summary = run["used"], run["summary"]
+    names = re.findall(r"\w+%\w+", " ".join(map(str, listed(case["sensitivity%parameters"]))))
+    tolerances = dict(zip(names, listed(case["sensitivity%tolerances"])))
+    shares = sorted(((abs(summary[f"d_minimum_gap_d_{key.replace('%', '_')}"]["value"])*value, key) for key, value in tolerances.items()
+                     if f"d_minimum_gap_d_{key.replace('%', '_')}" in summary), reverse=True)
+    spread = summary.get("standard_deviation_minimum_gap", {}).get("value", math.sqrt(sum(share**2 for share, _ in shares)))
+    most = ", ".join(f"{key} {1.0e6*share:.2g} um (for {tolerances[key]:.2g})" for share, key in shares[:3])
+    return [(question, f"± {1.0e6*spread:.2g} um, one standard deviation", most, spread > 0.5*summary["minimum_gap"]["value"])]
+
+
+def answer_limit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
+    """The row of a limit."""
+    rows = [row for row in glance(run["summary"], run["used"]) if row[0] in ("misalignment left", "lift-off speed")]
+    return [(question, answer, verdict, bad) for _, answer, verdict, bad in rows]
+
+
+def listed(value: Any) -> tuple[Any, ...]:
+    """One value or several."""
+    return value if isinstance(value, tuple) else (value,)
+
+
+ANSWERS = {"directions": answer_directions, "capacity": answer_capacity, "whirl": answer_whirl, "orbit": answer_orbit,
+           "tolerances": answer_tolerances, "misalignment": answer_limit, "lift_off": answer_limit}
+
+
+def main() -> int:
+    """The command."""
+    parser = argparse.ArgumentParser(prog="tools/design", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("case", type=pathlib.Path, metavar="CASE.nml", help="a bearing with a load")
+    parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR", help="folder; default: results/CASE.design")
+    parser.add_argument("--smallest-gap", type=float, metavar="M", help=f"film at which a limit is reached [m]; default: the case's, or {SMALLEST_GAP:g}")
+    parser.add_argument("--grade", type=float, default=GRADE, metavar="G", help=f"balance grade of the rotor, ISO 21940 [mm/s]; default: {GRADE:g}")
+    parser.add_argument("--processes", type=int, default=max(1, (os.cpu_count() or 2)//2), metavar="N", help="parts at a time")
+    parser.add_argument("--gfb", help="the program; default: as gfb from Python finds it")
+    options = parser.parse_args()
+    draw_into_files()
+    try:
+        case = Case.read(options.case)
+        if "operation%axial_load" not in case and "operation%load" not in case:
+            raise CaseError(f"{options.case}: a study needs a load in &operation")
+        found = design(case, options.output or pathlib.Path("results")/f"{options.case.stem}.design", options.case.stem,
+                       options.smallest_gap, options.grade, options.processes, options.gfb)
+    except CaseError as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(found.table())
+    print(f"written: {found.page(options.gfb)}")
+    return 0
