@@ -2,7 +2,7 @@
 program gfb
   use gfb_errors, only: error_type, status_machine
   use gfb_c_library, only: exit_with_status
-  use gfb_machine_memory, only: look_for_room
+  use gfb_machine_memory, only: look_for_room, room_to_start
   use gfb_blas_kernel, only: choose_kernel
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: limit_time, stop_agreed, stop_status
@@ -24,7 +24,7 @@ program gfb
   logical :: converged, well
 
   call read_command_line(line, error)
-  call look_for_room()
+  call look_for_room(room_to_start)
   if (line%version .or. .not. (line%informs() .or. line%check)) call choose_kernel()
   call start_pool(line%groups, pool)
   call start_petsc()

@@ -1,19 +1,26 @@
 !> How much memory this machine still has, as Linux tells it.
 module gfb_machine_memory
+  use, intrinsic :: iso_c_binding, only: c_size_t
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
   public :: available_memory, unknown_memory, named_number, group_path, look_for_room, start_blas
 
+  integer(c_size_t), parameter :: mebibyte = 1048576_c_size_t !! [B]
+  integer(c_size_t), parameter, public :: room_to_start = 96*mebibyte !! of MPI and PETSc [B]
+  !> Of HDF5, beside what is written [B].
+  integer(c_size_t), parameter, public :: room_to_write = 16*mebibyte
   real(wp), parameter :: unknown_memory = huge(1.0_wp) !! where nothing tells
   real(wp), parameter :: kilobyte = 1024.0_wp          !! the kernel's kB [B]
   integer, parameter :: longest_line = 500
 
   interface
-    !> Ends the program with a sentence and status 3 where a limit does not leave what its start
-    !> takes.
-    subroutine look_for_room() bind(c, name='gfb_look_for_room')
+    !> Ends the program with a sentence and status 3 where a limit of addresses does not leave so
+    !> many to a library that would end in many ways.
+    subroutine look_for_room(bytes) bind(c, name='gfb_look_for_room')
+      import :: c_size_t
       implicit none (type, external)
+      integer(c_size_t), value :: bytes !! to be had [B]
     end subroutine look_for_room
 
     !> Lets BLAS take its working memory; where there is none for it, the program ends with a

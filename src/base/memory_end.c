@@ -8,9 +8,6 @@
 
 static const int status_machine = 3;
 
-/* What the start of MPI and PETSc takes of a limit of addresses [bytes]; where they do not get it, they end in many ways. */
-static const size_t room_to_start = 96u << 20;
-
 /* BLAS needs microseconds of the processor for what is asked of it here, under valgrind a thousand times that [s]. */
 static const int patience = 2;
 
@@ -42,12 +39,12 @@ void _gfortran_os_error(const char *words)
   _gfortran_os_error_at("", "%s", words);
 }
 
-void gfb_look_for_room(void)
+void gfb_look_for_room(size_t bytes)
 {
-  void *room = mmap(NULL, room_to_start, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
 
   if (room == MAP_FAILED) end_without_memory(0);
-  munmap(room, room_to_start);
+  munmap(room, bytes);
 }
 
 extern void dsyrk_(const char *half, const char *transposed, const int *order, const int *inner, const double *factor,

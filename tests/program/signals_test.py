@@ -123,14 +123,12 @@ def check_first_answer(checks, folder):
             os.kill(process.pid, number)
         process.communicate(timeout=SECONDS)
     checks.that("stopped and continued: the first signal counts", process.returncode == 130)
-    with subprocess.Popen([GFB, "one.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE) as process:
-        time.sleep(0.5)
-        os.kill(process.pid, signal.SIGTERM)
-        time.sleep(0.7)
-        if process.poll() is None:
-            os.kill(process.pid, signal.SIGTERM)
-        process.wait(SECONDS)
+    with subprocess.Popen([GFB, "--verbose", "one.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, encoding="utf-8") as process:
+        wait_for(process, "    iteration")
+        for _ in range(2):
+            process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=SECONDS)
     checks.that("a second signal: the end", process.returncode in (143, -signal.SIGTERM))
 
 

@@ -60,7 +60,7 @@ CALLS = (  # tool, file, further words
     (plot_main.main, "rotor.bump_foil.vtkhdf", ()), (plot_main.main, "strip.h5", ("--show", "loop")),
     (plot_main.main, "strip.h5", ("--show", "bumps")), (plot_main.main, "strip.h5", ("--show", "contact")),
     (plot_main.main, "modes.bump_foil.vtkhdf", ("mode_1",)),
-    (coefficients.main, "rotor.h5", ("--point", "2", "--ross", "a.toml", "--xltrc", "a.txt", "--state-space", "a.npz")),
+    (coefficients.main, "rotor.h5", ("--point", "2", "--ross", "a.toml", "--xltrc", "a.txt", "--state-space", "a.npz", "--accept-deviation")),
 )
 
 

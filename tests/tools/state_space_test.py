@@ -97,6 +97,8 @@ class RationalFunction(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = table_file(pathlib.Path(folder)/"a.h5", self.frequency, growing(1j*self.frequency))
             status, said = call(path, "--state-space")
+            self.assertEqual((status, "--accept-deviation writes them" in said, said.count("\n")), (1, True, 2), said)
+            status, said = call(path, "--state-space", "--accept-deviation")
             self.assertEqual((status, "warning: these equations are not those of the bearing" in said), (0, True), said)
             with numpy.load(path.with_suffix(".state_space.npz")) as file:
                 self.assertLess(numpy.linalg.eigvals(file["A"]).real.max(), 0.0)

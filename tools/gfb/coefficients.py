@@ -29,6 +29,7 @@ PLANE = (("xx", 0, 0), ("xy", 0, 1), ("yx", 1, 0), ("yy", 1, 1))  # name, row, c
 ROSS_3 = "3: a table over the speed of the shaft (rows) and the frequency of vibration"
 MOTIONS = (4, 3)  # of a journal, and of a runner: e_z, phi_x, phi_y
 LARGE = 1.0e-3  # deviation of a fit that is warned of
+REFUSED = 1.0e-2  # and that is refused, unless it is asked for
 ABOUT = ("x' = A x + B a, force on the shaft = -(C x + D a + E a'), all changes against the steady state. a: displacement of "
          "the shaft along x, y [m], rotation about x, y [rad]; force: along x, y [N], torque about x, y [N m]. A [1/s], "
          "poles [rad/s] are its eigenvalues; frequencies [rad/s] between which it was fitted. deviation: largest relative one "
@@ -141,7 +142,11 @@ def state_space_writer(options, data):
         stop(f"{options.file}: no state space: {error}")
     between = "" if math.isnan(made.between) else f", {made.between:.1e} between"
     print(f"{made.number} poles, {4*made.number} states; largest deviation {made.deviation:.1e} at the frequencies{between}")
-    if not max(made.deviation, numpy.nan_to_num(made.between)) < LARGE:
+    largest = float(numpy.nanmax([made.deviation, made.between]))
+    if not (largest < REFUSED or options.accept_deviation):
+        stop(f"{options.file}: no state space: these equations are {100.0*largest:.2g} % off the bearing's: they need more poles, or more frequencies, "
+             "wider or denser; a loss factor, or a film that is unstable under a fixed shaft, has none with stable poles. --accept-deviation writes them")
+    if not largest < LARGE:
         say("warning: these equations are not those of the bearing: they need more poles, or more frequencies, wider or denser; "
             "a loss factor, or a film that is unstable under a fixed shaft, has none with stable poles")
     content = dict(zip("ABCDE", made.matrices()), poles=made.all_poles, frequency=frequency, deviation=made.deviation,
@@ -171,10 +176,12 @@ def main():
     parser.add_argument("--poles", type=int, metavar="N", help="number of poles of --state-space; default: as many as 1e-5 needs")
     parser.add_argument("--velocity-term", action="store_true",
                         help="of --state-space: fit E as well; without it E is zero, as of gas that is squeezed fast")
+    parser.add_argument("--accept-deviation", action="store_true",
+                        help=f"of --state-space: write matrices that are more than {REFUSED:g} off, too")
     options = parser.parse_args()
     if options.ross is None and options.xltrc is None and options.state_space is None:
         stop("nothing to write: name --ross TOML, --xltrc TXT or --state-space")
-    if options.state_space is None and (options.poles is not None or options.velocity_term):
+    if options.state_space is None and (options.poles is not None or options.velocity_term or options.accept_deviation):
         stop("--poles and --velocity-term are of --state-space")
     if options.state_space == pathlib.Path():
         options.state_space = options.file.with_suffix(".state_space.npz")

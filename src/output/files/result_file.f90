@@ -11,6 +11,7 @@ module gfb_result_file
                  MPI_Bcast
   use gfb_kinds, only: long, wp
   use gfb_errors, only: error_type, fail, status_machine
+  use gfb_machine_memory, only: look_for_room, room_to_write
   use gfb_file_set, only: unfinished_file_type, write_unfinished, publish, drop_unfinished, &
                           error_words
   use gfb_hdf5_text, only: text_kind, write_texts, write_text_attribute, write_fixed_attribute
@@ -133,6 +134,7 @@ contains
     file%first_rank = first_rank
     file%communicator = communicator
     if (.not. first_rank) return
+    call look_for_room(room_to_write) ! without it HDF5 may crash, also below
     call h5open_f(status)
     call h5eset_auto_f(0, status)
     call h5pcreate_f(H5P_FILE_ACCESS_F, access, status)
@@ -303,6 +305,7 @@ contains
     integer :: status
 
     if (.not. self%first_rank) return
+    call look_for_room(room_to_write)
     value = number
     call h5screate_f(H5S_SCALAR_F, space, status)
     call h5dcreate_f(self%file, path, H5T_NATIVE_DOUBLE, space, dataset, status)
@@ -396,6 +399,7 @@ contains
 
     extent = int([pack([components], [components /= 1]), entries], hsize_t)
     if (present(shape)) extent = int([shape, entries], hsize_t)
+    call look_for_room(room_to_write)
     call h5screate_simple_f(size(extent), extent, space, status)
     call choose_layout(extent, self%compressed, layout, status)
     if (status /= 0) self%failed = .true.

@@ -53,7 +53,7 @@ def draw_field(chart, film, pads, name):
     if numpy.allclose(values[:, 0], values[:, -1], rtol=ROUND_OFF, atol=0.0):
         rows = [rows[0], (-1, "--", "edges")]
     shown = values[:, [row for row, _, _ in rows]]
-    low, high = float(shown.min()), float(shown.max())
+    low, high = 0.0 if name == "gap" else float(shown.min()), float(shown.max())  # a film that is thin looks thin
     span = high - low if high - low > ROUND_OFF*abs(high) else abs(high) or 1.0
     angle = numpy.radians(film.theta)
     for pad in pads:
@@ -62,8 +62,9 @@ def draw_field(chart, film, pads, name):
         for end in (pad[0], pad[-1]):
             chart.plot(2*[angle[end]], (low, high + ROOM*span), color="0.45", linewidth=0.9,
                        label="pad edges" if pad is pads[0] and end == pad[0] else None)
-    chart.set_ylim(low - ROOM*span, high + ROOM*span)
-    chart.set_rorigin(low - (HOLE + ROOM)*span)
+    inside = 0.0 if name == "gap" else ROOM*span  # the shaft is where the film is zero
+    chart.set_ylim(low - inside, high + ROOM*span)
+    chart.set_rorigin(low - HOLE*span - inside)
     chart.yaxis.set_major_locator(round_numbers(4))
     chart.set_rlabel_position(45.0)
     chart.tick_params(axis="y", labelsize=8)
