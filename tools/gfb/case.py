@@ -82,6 +82,10 @@ class Case:
             case.groups[group][key] = values[0] if len(values) == 1 else tuple(values)  # type: ignore[assignment]
         return case
 
+    def is_thrust(self) -> bool:
+        """Whether the bearing is a thrust bearing."""
+        return self.groups.get("bearing", {}).get("kind") == "thrust"
+
     def copy(self) -> Case:
         """Another case with the same keys."""
         return copy.deepcopy(self)

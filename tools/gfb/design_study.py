@@ -26,6 +26,7 @@ from gfb.case import Case, CaseError
 from gfb.door import DONE, ENDINGS, find_member, run_member
 from gfb.report.glance import carried_by, glance
 from gfb.report.main import read_run, write_page
+from gfb.results import read_history
 from gfb.tool import draw_into_files, say
 
 DIRECTIONS = 12                      # of the load, around the bearing
@@ -117,7 +118,7 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
 
 def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]:
     """All parts of the study; the first one is the operating point."""
-    thrust = case.groups.get("bearing", {}).get("kind") == "thrust"
+    thrust = case.is_thrust()
     speed = float(case["operation%speed_rpm"])
     gap = smallest_gap or (float(case["capacity%smallest_gap"]) if "capacity%smallest_gap" in case else SMALLEST_GAP)
     whirl = "whirl over the speed" if "rotor%mass" in case else "critical mass over the speed"
@@ -200,7 +201,7 @@ def rows_of(parts: Sequence[Part], gfb: str | os.PathLike[str] | None) -> list[t
         if part.stem is None:
             rows.append((part.question, "left out", part.left_out, False))
             continue
-        run = read_run(part.stem, gfb, pictures=False)
+        run = read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")}
         if not run["converged"]:
             words = [str(run["summary"][name]["value"]) for name in ("not_reached", "ending") if name in run["summary"]]
             rows.append((part.question, "no answer", ("not reached: " + ", ".join(words) if words else "lost on the way")
@@ -214,8 +215,7 @@ def rows_of(parts: Sequence[Part], gfb: str | os.PathLike[str] | None) -> list[t
 
 def column(run: dict[str, Any], name: str) -> list[float]:
     """A column of the points; empty where there is none."""
-    heads = [head for head, _ in run["heads"]]
-    return [float(row[heads.index(name)] or math.nan) for row in run["all_rows"]] if name in heads else []
+    return [float(value) for value in run["points"].get(name, ())]
 
 
 def answer_directions(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:

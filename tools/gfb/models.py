@@ -19,7 +19,7 @@ import xarray
 from gfb.case import Case, CaseError
 from gfb.door import DONE, NOT_CONVERGED, WRONG_INPUT, find_member, run_member, table
 from gfb.reading import read
-from gfb.tables import markdown_table
+from gfb.tables import READABLE, markdown_table
 from gfb.tool import run as run_tool
 
 OF_JOURNALS = ("rigid", "elastic_foundation", "beam", "shell")
@@ -31,7 +31,6 @@ SHOWN = ("eccentricity_x", "eccentricity_y", "attitude_angle", "axial_gap", "min
          "torque_x", "torque_y", "friction_torque", "power_loss", "stiffness_xx", "stiffness_yy", "stiffness_zz", "critical_mass",
          "load_capacity", "lift_off_speed_rpm", "misalignment_allowance", "axial_frequency", "unknowns", "factorizations", "wall_time")
 DEGREES = 180.0/math.pi
-UNITS = {"m": ("um", 1.0e6), "Pa": ("kPa", 1.0e-3), "rad": ("deg", DEGREES), "N/m": ("MN/m", 1.0e-6)}
 
 
 @dataclasses.dataclass
@@ -50,7 +49,7 @@ class Models:
         for name in names:
             if name not in self.data or not (abs(self.data[name].fillna(0.0)) > 0.0).any():
                 continue
-            unit, scale = UNITS.get(self.data[name].units, (self.data[name].units, 1.0))
+            unit, scale = READABLE.get(self.data[name].units, (self.data[name].units, 1.0))
             rows.append([name, unit, *(readable(float(value)*scale) for value in self.data[name].values)])
         rows.append(["", "", *(ENDS[int(status)] for status in self.data.status.values)])
         lines = [f"- {model}: left out {'; '.join(self.left_out[model])}\n" for model in models if self.left_out[model]]
@@ -103,7 +102,7 @@ def compare_models(case: Case, models: Sequence[str] | None = None, folder: str 
     Of a sweep the table has the last point. What a model has no use for is left out, and said. A model that the case cannot have has status 1 and a reason, one without an
     answer status 2; numbers are NaN there. Called again, it computes what is not there yet."""
     if models is None:
-        models = OF_RUNNERS if case.groups.get("bearing", {}).get("kind") == "thrust" else OF_JOURNALS
+        models = OF_RUNNERS if case.is_thrust() else OF_JOURNALS
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     left_out: dict[str, list[str]] = {}

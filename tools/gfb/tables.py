@@ -1,4 +1,8 @@
-"""Tables for the terminal and for the documentation."""
+"""Tables for the terminal and for the documentation, and the units that people read."""
+
+# SI unit: unit that is read, and what to multiply with.
+READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad": ("mrad", 1.0e3), "N m": ("mN m", 1.0e3),
+            "N/m": ("MN/m", 1.0e-6)}
 
 
 def plain_table(title, heads, rows):

@@ -5,9 +5,10 @@ from matplotlib import animation, colors, pyplot
 
 from gfb import steps
 from gfb.plot import transient
-from gfb.plot.film import READABLE, WORDS, around_zero, read_film
+from gfb.plot.film import WORDS, around_zero, read_film
 from gfb.plot.scene import case_name, step_words
 from gfb.results import open_results
+from gfb.tables import READABLE
 from gfb.tool import stop
 
 FIELDS = ("pressure", "gap", "deflection")

@@ -7,10 +7,9 @@ from matplotlib import colors, pyplot
 
 from gfb.plot.scene import draw_edges, round_numbers, scene_of
 from gfb.results import attribute
+from gfb.tables import READABLE
 from gfb.tool import stop
 
-# SI unit: unit of the picture and what to multiply with.
-READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad": ("mrad", 1.0e3)}
 FIELDS = ("pressure", "gap", "deflection")
 WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
 ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane

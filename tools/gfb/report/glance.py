@@ -3,8 +3,9 @@ is measured against, and a sketch of the bearing with its load and its thinnest 
 
 import math
 
+from gfb.tables import READABLE
+
 MOST_POINTS = 40  # of an arc of the sketch
-UNITS = {"m": ("um", 1.0e6), "Pa": ("kPa", 1.0e-3), "N m": ("mN m", 1.0e3), "N/m": ("MN/m", 1.0e-6), "rad": ("mrad", 1.0e3)}
 KELVIN = 273.15
 
 
@@ -29,7 +30,7 @@ class Results:
         value = self.value(name)
         if value is None:
             return ""
-        unit, scale = UNITS.get(self.summary[name]["unit"], (self.summary[name]["unit"], 1.0))
+        unit, scale = READABLE.get(self.summary[name]["unit"], (self.summary[name]["unit"], 1.0))
         error = self.value(f"{name}_error")
         return f"{scale*value:.4g}" + (f" ± {scale*error:.2g}" if error is not None else "") + (f" {unit}" if unit != "1" else "")
 

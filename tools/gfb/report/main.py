@@ -88,7 +88,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         converged = bool(summary["converged"]["value"])
     drawings = pictures_of(stem, points, shows, curve) if pictures else []
     return {"name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
-            "converged": converged, "heads": heads, "rows": rows if points > 1 else [], "all_rows": rows,
+            "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
             "glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
             "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
 
