@@ -8,8 +8,8 @@ module gfb_motion_rules
                               follow_nothing, follow_speed, follow_unbalance, follow_mass, &
                               duration_of
   use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
-                            foil_rigid, foil_shell, half_width_yes, reduction_none, meshes_foils, &
-                            meshes_top_foil
+                            foil_rigid, foil_plate, foil_shell, half_width_yes, reduction_none, &
+                            meshes_foils, meshes_top_foil, springs_two_sided
   use gfb_operation_case, only: angular_speed
   use gfb_scene, only: scene_type, foil_density
   use gfb_scene_case, only: analysis_equilibrium
@@ -89,13 +89,16 @@ contains
     end if
   end subroutine check_amplitudes
 
-  !> Dampers and Maxwell arms stand beside the springs of an elastic foundation.
+  !> Dampers and Maxwell arms stand beside the springs of an elastic foundation; meshed foils have
+  !> a loss factor at a frequency. Springs that open lose nothing while they are open: no matrix.
   subroutine check_damping(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: group = 'foil_damping', stiffness = 'maxwell_stiffness', &
                                    time = 'maxwell_time'
     character(len=*), parameter :: on_springs = "needs foil = 'elastic_foundation' in &model"
+    character(len=*), parameter :: loss = 'loss_factor', frequency = 'loss_frequency'
+    logical :: loses
 
     call keys%rule(group, 'foundation_damping', scene%model%foil /= foil_elastic_foundation .and. &
                    scene%foil_damping%foundation_damping > 0.0_wp, on_springs)
@@ -105,6 +108,21 @@ contains
                      'needs '//stiffness//' beside it')
     call keys%refuse(group, stiffness//', '//time, &
                      all(scene%model%foil /= [0, foil_elastic_foundation]), on_springs)
+    loses = scene%foil_damping%loss_factor > 0.0_wp
+    call keys%rule(group, loss, loses .and. .not. keys%meant(group, frequency), 'needs '// &
+                   frequency//' beside it: at which frequency foils have it')
+    call keys%refuse(group, frequency, .not. keys%holds(group, loss), &
+                     'has no use without '//loss//' beside it')
+    call keys%rule('dynamics', loss, loses .and. scene%dynamics%loss_factor > 0.0_wp, &
+                   'has no use beside '//loss//' in &foil_damping: give one of them')
+    associate (model => scene%model)
+      call keys%rule(group, loss, loses .and. any(model%foil == [foil_rigid, &
+                     foil_elastic_foundation]), "needs foil = 'shell' in &model, 'beam' or "// &
+                     "'plate': springs of a foundation have foundation_damping")
+      call keys%rule(group, loss, loses .and. model%foil == foil_plate .and. &
+                     model%crest_springs /= springs_two_sided, 'needs crest_springs = '// &
+                     "'two_sided' in &model: one that opens loses nothing while it is open")
+    end associate
   end subroutine check_damping
 
   !> The keys of the foil's mass have a use, and the foils a density.

@@ -114,7 +114,7 @@ module gfb_plausible_values
     range_type(1.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um', 'bump_foil%cut_width'), &
     range_type(0.0_wp, 2.0_wp, '1', '%', &
                'contact%friction_top contact%friction_sleeve shaft_contact%friction '// &
-               'dynamics%loss_factor'), &
+               'dynamics%loss_factor foil_damping%loss_factor'), &
     range_type(1.0e-12_wp, 1.0e-3_wp, 'm', 'um,mm', 'contact%stick_length'), &
     range_type(1.0e-8_wp, 1.0e-4_wp, 'm', 'um,mm', 'shaft_contact%roughness'), &
     range_type(1.0e4_wp, 1.0e11_wp, 'Pa', 'MPa,GPa', 'shaft_contact%pressure'), &
@@ -129,7 +129,8 @@ module gfb_plausible_values
     range_type(0.0_wp, 1.0e-2_wp, '1', '%', 'solver%residual_tolerance solver%step_tolerance'), &
     range_type(0.0_wp, 1.0_wp, '1', '%', 'solver%smallest_load_step'), &
     range_type(0.0_wp, 1.0e7_wp, 'rad/s', 'rpm', &
-               'dynamics%frequencies transient%orbit_frequency'), &
+               'dynamics%frequencies transient%orbit_frequency '// &
+               'foil_damping%loss_frequency'), &
     range_type(0.0_wp, 100.0_wp, '1', '%', 'dynamics%frequency_ratios'), &
     range_type(1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3', 'foil_damping%foundation_damping'), &
     range_type(1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'foil_damping%maxwell_stiffness'), &

@@ -163,12 +163,8 @@ def orbit_of(case: Case, grade: float, speed: float, thrust: bool) -> Part:
     if thrust or "rotor%mass" not in case:
         return Part("orbit", question, left_out="a runner is not followed over time" if thrust else "the case has no &rotor with a mass")
     unbalance = float(case["rotor%mass"])*1.0e-3*grade/(speed*math.pi/30.0)
-    part = with_analysis(case, "orbit", question, "transient", ("rotor", "foil_damping"), unbalance={"unbalance": unbalance},
+    return with_analysis(case, "orbit", question, "transient", ("rotor", "foil_damping"), unbalance={"unbalance": unbalance},
                          transient={"turns": ORBIT_TURNS, "steady_tolerance": ORBIT_STEADY})
-    part.case.groups["foil_damping"] = {key: value for key, value in case.groups.get("foil_damping", {}).items() if key != "loss_factor"}
-    if not part.case.groups["foil_damping"]:
-        del part.case.groups["foil_damping"]
-    return part
 
 
 def tolerances_of(case: Case) -> Part:

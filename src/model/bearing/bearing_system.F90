@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Pads and shaft as one set of equations: the terms of each pad, the shaft's balance, momentum of the foils.
+!> Pads and shaft as one set of equations: the terms of each pad, the shaft's balance, momentum and losses of the foils.
 module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
@@ -17,7 +17,7 @@ module gfb_bearing_system
   use gfb_natural_order, only: natural_order_type, visit_vector
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_contact_memory, only: visit_contacts
-  use gfb_foil_momentum, only: foil_momentum_type
+  use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_local_exchange, only: create_exchange
   use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian, walls_of
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
@@ -29,6 +29,7 @@ module gfb_bearing_system
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
     type(foil_momentum_type) :: momentum !! inertia of the foils over a step of time, where they have a mass
+    type(foil_losses_type) :: losses     !! viscous ones of meshed foils over a step of time, where there are any
     type(term_type), allocatable, private :: term(:) !! of each pad's equations
     type(tMat), private :: constant    !! what of the matrix never changes, in SI
     !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
@@ -297,6 +298,7 @@ contains
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call self%exchange%add(value, residual)
     call self%momentum%add_force(state, residual)
+    call self%losses%add_force(state, residual)
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine evaluate_at
 
@@ -438,6 +440,7 @@ contains
     call self%exchange%put(1.0_wp/self%equation_scale(point), self%left)
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
     call self%momentum%add_stiffness(self%jacobian)
+    call self%losses%add_stiffness(self%jacobian)
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine linearise_at
 
@@ -571,6 +574,7 @@ contains
     call free_equations(self)
     call self%pad(1)%foil%destroy() ! the others' is the same
     call self%momentum%destroy()
+    call self%losses%destroy()
     deallocate (self%pad)
   end subroutine destroy_bearing
 

@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> The inertia of foils over a step of time, differenced twice as the shaft's is.
+!> The inertia of foils over a step of time, differenced twice as the shaft's is, and what they lose.
 !>
 !> With the weights of `gfb_backward_difference` and the mass M of the foils
 !>
@@ -8,6 +8,19 @@
 !>
 !> the foils would be at \( \hat u \) without any force. Film and shaft have neither row nor column in M. Modes inside
 !> condensed pieces join in (`gfb_inner_motion`).
+!>
+!> Viscous losses of foils over a step of time, in proportion to their stiffness.
+!>
+!> With the matrix K of the foils' elastic forces, without contacts and film, and the loss time \( \tau \) the foils' equations
+!> gain \( \tau \mathbf K \dot{\mathbf u} \): a loss factor \( \omega \tau \) in a vibration, and a power
+!> \( \tau \dot{\mathbf u}^T \mathbf K \dot{\mathbf u} \ge 0 \) that is lost. What foils rest with, assembled or bent before, has no rate.
+!> By the weights of `gfb_backward_difference`
+!>
+!> $$ \tau \mathbf K \dot{\mathbf u} \approx \tau a_0 \mathbf K (\mathbf u - \hat{\mathbf u}), \quad
+!>    \hat{\mathbf u} = \mathbf u_1 - \frac{a_2}{a_0} (\mathbf u_2 - \mathbf u_1): $$
+!>
+!> of the past it needs two states, which the march keeps. Modes inside condensed pieces lose by themselves
+!> (`gfb_inner_motion`).
 module gfb_foil_momentum
   use petscmat
   use gfb_kinds, only: wp
@@ -27,6 +40,22 @@ module gfb_foil_momentum
   contains
     procedure :: begin, prepare, carry, add_force, add_stiffness, destroy
   end type foil_momentum_type
+
+  !> Losses of the foils; none where they are not begun.
+  type, public :: foil_losses_type
+    logical :: present = .false.
+    real(wp), private :: time = 0.0_wp  !! tau [s]
+    real(wp), private :: share = 0.0_wp !! tau a_0 of the present step [1]
+    Mat, private :: stiffness           !! K, scaled as the bearing's matrix
+    Vec, private :: still               !! scaled unknowns without rates
+    Vec, private :: way, force          !! work space: from there to a state; what is lost
+  contains
+    procedure :: begin => begin_losses
+    procedure :: prepare => prepare_losses
+    procedure :: add_force => add_losses
+    procedure :: add_stiffness => add_viscosity
+    procedure :: destroy => destroy_losses
+  end type foil_losses_type
 
 contains
 
@@ -51,9 +80,10 @@ contains
   end subroutine begin
 
   !> From now on the equations are those of a step.
-  subroutine prepare(self, weight, now, before)
+  subroutine prepare(self, weight, loss_time, now, before)
     class(foil_momentum_type), intent(inout) :: self !! the foils' inertia
     real(wp), intent(in) :: weight(0:2) !! a_0, a_1, a_2 of the step [1/s]
+    real(wp), intent(in) :: loss_time   !! tau of the losses of modes inside pieces [s]
     Vec, intent(in) :: now, before      !! scaled, at its beginning and one step earlier
     PetscErrorCode :: ierr
 
@@ -63,7 +93,7 @@ contains
     PetscCallA(VecAXPY(self%free, -weight(2)/weight(0), self%way, ierr))
     PetscCallA(VecAXPY(self%free, -weight(1)/self%share, self%rate(1), ierr))
     PetscCallA(VecAXPY(self%free, -weight(2)/self%share, self%rate(2), ierr))
-    call self%inner%prepare(weight)
+    call self%inner%prepare(weight, loss_time)
   end subroutine prepare
 
   !> Ends a step: its rate becomes the newest.
@@ -124,4 +154,69 @@ contains
     call self%inner%destroy()
     self%present = .false.
   end subroutine destroy
+  !> Losses begin at rest.
+  subroutine begin_losses(self, time, stiffness, state)
+    class(foil_losses_type), intent(inout) :: self !! nothing before
+    real(wp), intent(in) :: time  !! tau, positive [s]
+    Mat, intent(in) :: stiffness  !! scaled as the bearing's matrix; kept, and freed in the end
+    Vec, intent(in) :: state      !! a vector of its size
+    PetscErrorCode :: ierr
+
+    self%time = time
+    self%stiffness = stiffness
+    PetscCallA(VecDuplicate(state, self%still, ierr))
+    PetscCallA(VecDuplicate(state, self%way, ierr))
+    PetscCallA(VecDuplicate(state, self%force, ierr))
+    self%share = 0.0_wp
+    self%present = .true.
+  end subroutine begin_losses
+
+  !> From now on they are those of a step.
+  subroutine prepare_losses(self, weight, now, before)
+    class(foil_losses_type), intent(inout) :: self !! of the foils
+    real(wp), intent(in) :: weight(0:2) !! a_0, a_1, a_2 of the step [1/s]
+    Vec, intent(in) :: now, before      !! scaled, at its beginning and one step earlier
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    self%share = self%time*weight(0)
+    PetscCallA(VecWAXPY(self%way, -1.0_wp, now, before, ierr))
+    PetscCallA(VecWAXPY(self%still, -weight(2)/weight(0), self%way, now, ierr))
+  end subroutine prepare_losses
+
+  !> Adds what is lost at a state.
+  subroutine add_losses(self, state, residual)
+    class(foil_losses_type), intent(inout) :: self !! of the foils
+    Vec, intent(in) :: state    !! scaled
+    Vec, intent(in) :: residual !! of the bearing, scaled
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    PetscCallA(VecWAXPY(self%way, -1.0_wp, self%still, state, ierr))
+    PetscCallA(MatMult(self%stiffness, self%way, self%force, ierr))
+    PetscCallA(VecAXPY(residual, self%share, self%force, ierr))
+  end subroutine add_losses
+
+  !> Adds its derivative.
+  subroutine add_viscosity(self, jacobian)
+    class(foil_losses_type), intent(in) :: self !! of the foils
+    Mat, intent(in) :: jacobian !! of the bearing, scaled
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    PetscCallA(MatAXPY(jacobian, self%share, self%stiffness, SAME_NONZERO_PATTERN, ierr))
+  end subroutine add_viscosity
+
+  !> Frees what PETSc holds; may be called twice.
+  subroutine destroy_losses(self)
+    class(foil_losses_type), intent(inout) :: self !! none any longer
+    PetscErrorCode :: ierr
+
+    if (.not. self%present) return
+    PetscCallA(MatDestroy(self%stiffness, ierr))
+    PetscCallA(VecDestroy(self%still, ierr))
+    PetscCallA(VecDestroy(self%way, ierr))
+    PetscCallA(VecDestroy(self%force, ierr))
+    self%present = .false.
+  end subroutine destroy_losses
 end module gfb_foil_momentum

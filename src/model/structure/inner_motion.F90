@@ -9,6 +9,12 @@
 !>
 !> the block of `gfb_inner_motion` in a motion \( e^{a_0 t} \). Source: [CraigBampton1968].
 !>
+!> With viscous losses (`gfb_foil_momentum`) of the time \( \tau \) a mode's spring is \( \omega^2 (\eta + \tau \dot\eta) \), of a step
+!>
+!> $$ \omega^2 (1 + a_0 \tau) (\eta + s), \quad s = \frac{\tau (a_1 \eta_1 + a_2 \eta_2)}{1 + a_0 \tau}, $$
+!>
+!> a stiffer mode of the amplitude \( \eta + s \).
+!>
 !> Fixed-interface modes inside the condensed pieces of a foil that moves.
 !>
 !> Modes \( \phi_i \) of unit modal mass with the natural frequencies \( \omega_i \) couple by \( m_i \) to the
@@ -43,10 +49,12 @@ module gfb_inner_motion
     logical :: present = .false.
     real(wp), allocatable :: amplitude(:, :) !! (this rank's modes, 2) now and one step ago [m sqrt(kg)]
     real(wp), allocatable :: rate(:, :)      !! (this rank's modes, 2) of the amplitudes [m sqrt(kg)/s]
-    real(wp), allocatable, private :: free(:)       !! amplitudes without any force in the present step
+    real(wp), allocatable, private :: free(:)       !! amplitudes without any force in the present step, and s
+    real(wp), allocatable, private :: shift(:)      !! s of them [m sqrt(kg)]
     real(wp), allocatable, private :: eigenvalue(:) !! of each mode [1/s2]
     type(inner_modes_type), allocatable :: inner(:) !! this rank's kinds
     real(wp), private :: factor = 0.0_wp     !! a_0 of the present step [1/s]
+    real(wp), private :: loss = 0.0_wp       !! a_0 tau, what losses add to a stiffness, over it [1]
     logical, private :: formed = .false.     !! the stiffness is that of this a_0
     Mat, private :: coupling                 !! (modes, unknowns) m^T
     Mat, private :: stiffness                !! derivative of the force, scaled as the bearing's matrix
@@ -129,7 +137,7 @@ contains
       end do
     end do
     n = size(self%eigenvalue)
-    allocate (self%amplitude(n, 2), self%rate(n, 2), self%free(n), source=0.0_wp)
+    allocate (self%amplitude(n, 2), self%rate(n, 2), self%free(n), self%shift(n), source=0.0_wp)
     PetscCallA(VecDuplicate(left, self%left, ierr))
     PetscCallA(VecCopy(left, self%left, ierr))
     PetscCallA(VecDuplicate(right, self%right, ierr))
@@ -184,14 +192,17 @@ contains
   end subroutine couple
 
   !> From now on the equations are those of a step.
-  subroutine prepare(self, weight)
+  subroutine prepare(self, weight, loss_time)
     class(inner_motion_type), intent(inout) :: self !! the modes
     real(wp), intent(in) :: weight(0:2) !! a_0, a_1, a_2 of the step [1/s]
+    real(wp), intent(in) :: loss_time   !! tau, the same in all steps [s]
 
     if (.not. self%present) return
     self%formed = self%formed .and. .not. abs(weight(0) - self%factor) > 0.0_wp
     self%factor = weight(0)
-    self%free = free_value(weight, self%amplitude, self%rate)
+    self%loss = weight(0)*loss_time
+    self%shift = loss_time*(weight(1)*self%amplitude(:, 1) + weight(2)*self%amplitude(:, 2))/(1.0_wp + self%loss)
+    self%free = free_value(weight, self%amplitude, self%rate) + self%shift
   end subroutine prepare
 
   !> Ends a step: its amplitudes become the newest.
@@ -202,7 +213,7 @@ contains
     real(wp), allocatable :: newest(:)
 
     if (.not. self%present) return
-    newest = modal_amplitude(self%factor, self%eigenvalue, self%free, self%driven_by(way))
+    newest = modal_amplitude(self%factor, (1.0_wp + self%loss)*self%eigenvalue, self%free, self%driven_by(way)) - self%shift
     self%rate(:, 2) = self%rate(:, 1)
     self%rate(:, 1) = newest_rate(weight, newest, self%amplitude)
     self%amplitude(:, 2) = self%amplitude(:, 1)
@@ -234,7 +245,7 @@ contains
     PetscErrorCode :: ierr
 
     if (.not. self%present) return
-    acceleration = modal_acceleration(self%factor, self%eigenvalue, self%free, self%driven_by(way))
+    acceleration = modal_acceleration(self%factor, (1.0_wp + self%loss)*self%eigenvalue, self%free, self%driven_by(way))
     PetscCallA(GFB_VecGetArray(self%drive, values, ierr))
     values = acceleration
     PetscCallA(GFB_VecRestoreArray(self%drive, values, ierr))
@@ -255,7 +266,7 @@ contains
       PetscCallA(MatZeroEntries(self%stiffness, ierr))
       do i = 1, size(self%inner)
         associate (inner => self%inner(i))
-          call add_to_pieces(inner, real(inner_block(inner, cmplx(self%factor, 0.0_wp, wp), (0.0_wp, 0.0_wp)), wp), self%stiffness)
+          call add_to_pieces(inner, real(inner_block(inner, cmplx(self%factor, 0.0_wp, wp), cmplx(self%loss, 0.0_wp, wp)), wp), self%stiffness)
         end associate
       end do
       PetscCallA(MatAssemblyBegin(self%stiffness, MAT_FINAL_ASSEMBLY, ierr))

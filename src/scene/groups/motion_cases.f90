@@ -27,8 +27,12 @@ module gfb_motion_cases
   type :: foil_damping_case_type
     real(wp) :: foundation_damping = 0.0_wp !! of a damper beside each spring [N s/m^3]
     type(maxwell_arm_type) :: arm           !! a spring and a dashpot in series beside it
+    real(wp) :: loss_factor = 0.0_wp        !! eta of meshed foils at the next frequency [1]
+    real(wp) :: loss_frequency = 0.0_wp     !! at which their viscous losses have it [rad/s]
     integer :: foil_mass = mass_auto
     integer :: foil_modes = 2               !! kept inside each condensed bump
+  contains
+    procedure :: loss_time
   end type foil_damping_case_type
 
   character(len=*), parameter :: group = 'rotor', mass = 'mass', polar = 'polar_inertia', &
@@ -143,6 +147,13 @@ contains
                        'the elastic foundation', positive, default=no_default)
     call keys%real_key('maxwell_time', damping%arm%time, 's', 'relaxation time of that arm: '// &
                        'its dashpot over its spring', positive, default=no_default)
+    call keys%real_key('loss_factor', damping%loss_factor, '1', &
+                       'loss factor of top foil and bumps, of a plate that of its springs, at '// &
+                       '`loss_frequency`: it is viscous, and grows with the frequency', &
+                       not_negative)
+    call keys%real_key('loss_frequency', damping%loss_frequency, 'rad/s', &
+                       'circular frequency at which they have it: that of the expected whirl', &
+                       positive, default=no_default)
     call keys%choice_key('foil_mass', damping%foil_mass, mass_words, &
                          'whether top foil and bumps have their mass: where the frequencies '// &
                          'that are asked for, or with which the shaft moves, are high enough '// &
@@ -151,6 +162,14 @@ contains
                           'fixed-interface modes kept inside each condensed piece of the bumps '// &
                           'that has its mass', from_to(0.0_wp, most_modes), useless=massless)
   end subroutine read_foil_damping_case
+
+  !> Viscous losses of meshed foils: what they add to the elastic forces over the rates of these.
+  pure real(wp) function loss_time(self) result(time)
+    class(foil_damping_case_type), intent(in) :: self !! what `&foil_damping` asks for
+    ! of a rule that is broken there is none [s]
+    time = 0.0_wp
+    if (self%loss_frequency > 0.0_wp) time = self%loss_factor/self%loss_frequency
+  end function loss_time
 
   !> Reads the group; without it no rotor is on the bearing.
   subroutine read_rotor_case(keys, rotor, thrust, analysis)

@@ -237,6 +237,7 @@ contains
     integer :: k
 
     equations%vibration = vibration
+    equations%meshed = bearing%is_meshed()
     equations%local_springs = any(bearing%pad(1)%foil%source == [(k, k=1, size(bearing%pad(1)%foil%source))])
     call copy_pattern(equations%steady, equations%squeeze)
     call fill_film(bearing, squeeze, equations%squeeze)

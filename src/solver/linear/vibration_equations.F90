@@ -48,7 +48,7 @@ module gfb_vibration_equations
   type, public :: vibration_type
     logical :: stick = .true.           !! contacts that rub stick; else they slide on as they did
     real(wp) :: loss_factor = 0.0_wp    !! eta of the foil's stiffness [1]
-    real(wp) :: damping_time = 0.0_wp   !! c/k, viscous damping of its springs over their stiffness [s]
+    real(wp) :: damping_time = 0.0_wp   !! c/k, viscous damping of its springs or of meshed foils over the stiffness [s]
     type(maxwell_arm_type) :: arm       !! beside its springs, its stiffness over theirs [1]
   end type vibration_type
 
@@ -64,6 +64,7 @@ module gfb_vibration_equations
   type, public :: vibration_equations_type
     type(vibration_type) :: vibration
     logical :: local_springs = .false. !! a node's pressure moves the foil there
+    logical :: meshed = .false.        !! the foil has unknowns by the thousand, which all lose
     type(tMat) :: steady, squeeze !! f_x and c_x
     type(tMat) :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
     type(foil_inertia_type) :: inertia !! of the foil, nothing by default

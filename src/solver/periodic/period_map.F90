@@ -48,7 +48,7 @@ module gfb_period_map
     integer :: turns = 1             !! of the shaft in a period, where it is not free
     real(wp) :: stretch = 1.0_wp     !! of that period [1]
     integer :: steps = 0             !! of a period
-    type(march_settings_type) :: settings !! dampers and Maxwell arms of an elastic foundation; steps are the map's own
+    type(march_settings_type) :: settings !! what dissipates in the foils; steps are the map's own
     real(wp) :: period_scale = 1.0_wp    !! [s]
     real(wp) :: parameter_scale = 1.0_wp !! [its unit]
     real(wp) :: length = 1.0_wp      !! of places [m]

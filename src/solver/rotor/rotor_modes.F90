@@ -188,7 +188,7 @@ contains
   end function step
 
   !> Logarithm of the determinant at a rate, up to multiples of 2 pi i.
-  subroutine find_determinant(bearing, response, rotor, kind, rate, logarithm, found)
+  subroutine find_determinant(bearing, response, rotor, kind, rate, logarithm, found, of_film)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
     type(rotor_type), intent(in) :: rotor !! on the bearing
@@ -196,17 +196,21 @@ contains
     complex(wp), intent(in) :: rate !! lambda [1/s]
     complex(wp), intent(out) :: logarithm !! of scaled equations [1]
     logical, intent(out) :: found !! the matrices could be factorized
-    complex(wp) :: coefficient(journal_motions, journal_motions)
+    complex(wp), intent(out), optional :: of_film !! part of it that is film and foil about a shaft that is held [1]
+    complex(wp) :: coefficient(journal_motions, journal_motions), of_rotor
     integer :: i
 
     call find_coefficients(bearing, response, rate, coefficient, found, only_translations=kind == cylindrical)
     if (.not. found) return
-    logarithm = safe_log(determinant(dynamic_matrix(rotor, kind, coefficient, rate, bearing%point%speed)))
+    of_rotor = safe_log(determinant(dynamic_matrix(rotor, kind, coefficient, rate, bearing%point%speed)))
+    logarithm = of_rotor
     do i = 1, merge(1, size(response%part), kind == cylindrical)
       logarithm = logarithm + log_determinant(response%part(i)%factors)
     end do
-    if (kind == cylindrical .or. .not. allocated(response%opposite)) return
-    logarithm = logarithm + log_determinant(response%opposite%part(1)%factors)
+    if (kind /= cylindrical .and. allocated(response%opposite)) then
+      logarithm = logarithm + log_determinant(response%opposite%part(1)%factors)
+    end if
+    if (present(of_film)) of_film = logarithm - of_rotor
   end subroutine find_determinant
 
   !> Counts the modes in a circle about a real rate that are not known.
@@ -234,8 +238,9 @@ contains
   end subroutine count_missing
 
   !> Solves for a zero of the determinant next to a rate by the secant method; other zeros that are known are divided
-  !> out, so that the nearest of them do not lead astray.
-  subroutine solve_mode(bearing, response, rotor, kind, rate, found, others)
+  !> out, so that the nearest of them do not lead astray. Where film and foil make the determinant so steep that no line follows
+  !> it, as foils do that lose something, the exponential with their slope at the start is divided out, which has no zero.
+  subroutine solve_mode(bearing, response, rotor, kind, rate, found, others, steep)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
     type(rotor_type), intent(in) :: rotor !! on the bearing
@@ -243,21 +248,27 @@ contains
     complex(wp), intent(inout) :: rate !! start, and the mode's where it is found [1/s]
     logical, intent(out) :: found !! it converged next to the start
     complex(wp), intent(in), optional :: others(:) !! rates of other modes of the kind, one of each conjugate pair [1/s]
-    complex(wp) :: before, here, at_before, at_here, move, reference
+    logical, intent(in), optional :: steep !! film and foil make it so
+    complex(wp) :: before, here, at_before, at_here, move, reference, film, at_film, slope
     real(wp) :: last_move
+    logical :: steepens
     integer :: i
 
     before = rate
     here = rate*(1.0_wp + first_move)
     last_move = huge(1.0_wp)
-    call find_determinant(bearing, response, rotor, kind, before, reference, found)
+    call find_determinant(bearing, response, rotor, kind, before, reference, found, film)
     if (.not. found) return
     reference = reference - others_at(before)
+    slope = 0.0_wp
+    steepens = .false.
+    if (present(steep)) steepens = steep
     at_before = 1.0_wp
     do i = 1, most_trials
-      call find_determinant(bearing, response, rotor, kind, here, at_here, found)
+      call find_determinant(bearing, response, rotor, kind, here, at_here, found, at_film)
       if (.not. found) return
-      at_here = exp(at_here - others_at(here) - reference)
+      if (steepens .and. i == 1) slope = log(exp(at_film - film))/(here - before)
+      at_here = exp(at_here - others_at(here) - reference - slope*(here - rate))
       if (abs(at_here - at_before) <= 0.0_wp) exit
       move = -at_here*(here - before)/(at_here - at_before)
       before = here
@@ -457,7 +468,7 @@ contains
     do step = 1, damper_steps
       call put_dampers(whole, real(step, wp)/real(damper_steps, wp), response%equations%vibration)
       do i = 1, size(answer%mode)
-        if (kept(i)) call solve_mode(bearing, response, rotor, answer%mode(i)%kind, answer%mode(i)%rate, kept(i))
+        if (kept(i)) call solve_mode(bearing, response, rotor, answer%mode(i)%kind, answer%mode(i)%rate, kept(i), steep=.true.)
       end do
     end do
     answer%found = all(kept(:1))

@@ -314,12 +314,14 @@ contains
     call share%bearing%exchange%put(value, share%foil)
   end subroutine weigh_foil
 
-  !> Whether the equations are linear in lambda: not with a loss factor or a Maxwell arm, nor with dampers beside
-  !> springs that have no unknowns of their own.
+  !> Whether modes can be found as eigenvalues, and counted: the equations are linear in lambda, which they are not with a loss
+  !> factor or a Maxwell arm, nor with dampers beside springs that have no unknowns of their own. Viscous losses of a mesh put
+  !> a rate next to -1/tau for each of its unknowns, and the phase of the determinant turns too fast to be followed.
   pure function has_pencil(equations)
     type(vibration_equations_type), intent(in) :: equations !! of a bearing
     logical :: has_pencil
-    has_pencil = .not. dissipates(equations) .or. .not. (equations%local_springs .or. equations%vibration%arm%is_present() .or. &
+    has_pencil = .not. dissipates(equations) .or. .not. (equations%local_springs .or. equations%meshed .or. &
+                                                         equations%vibration%arm%is_present() .or. &
                                                          equations%vibration%loss_factor > 0.0_wp)
   end function has_pencil
 

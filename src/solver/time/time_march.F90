@@ -2,8 +2,8 @@
 !> A bearing and its shaft over time: film, foil and shaft in one implicit step.
 !>
 !> A step is the bearing's balance with three more terms, each a difference of second order over the
-!> present step and the one before (`gfb_backward_difference`): the gas that the film stores, dampers
-!> and mass of the foil (`gfb_foil_momentum`), and the shaft's inertia, \( m \ddot{\mathbf e} = \mathbf F - \mathbf f \), with the
+!> present step and the one before (`gfb_backward_difference`): the gas that the film stores, dampers,
+!> losses and mass of the foil (`gfb_foil_momentum`), and the shaft's inertia, \( m \ddot{\mathbf e} = \mathbf F - \mathbf f \), with the
 !> force F on the sleeve and the outer one f on the shaft. A rotor on two bearings tilts, too:
 !> \( I \ddot\phi + \mathbf G \dot\phi = -\mathbf M - \boldsymbol\tau \), with the torques M of the films and
 !> tau from outside on the rotor, about its centre of mass.
@@ -11,7 +11,7 @@
 !> PETSc's TS differentiates unknowns; here the product r h is differenced as a whole, which keeps the
 !> gas to round-off.
 module gfb_time_march
-  use petscvec
+  use petscmat
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_natural_order, only: natural_order_type, visit_vector
@@ -24,6 +24,7 @@ module gfb_time_march
   use gfb_operating_point, only: operating_point_type
   use gfb_contacts_in_motion, only: set_contacts_moving, take_over_friction
   use gfb_bearing_system, only: bearing_system_type, bearing_order
+  use gfb_film_rates, only: fill_springs
   use gfb_newton, only: newton_type, newton_report_type, solve_nearby
   implicit none (type)
   private
@@ -57,7 +58,7 @@ contains
   subroutine begin_march(drive, settings, bearing, march)
     type(shaft_drive_type), intent(in) :: drive !! what drives the shaft
     type(march_settings_type), intent(in) :: settings !! how steps are chosen
-    type(bearing_system_type), intent(in) :: bearing !! at a steady state
+    type(bearing_system_type), intent(inout) :: bearing !! at a steady state; its equations get the foils' losses
     type(march_type), intent(out) :: march !! ready for `take_step`
     PetscErrorCode :: ierr
     integer :: i
@@ -85,7 +86,20 @@ contains
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
     end do
     if (bearing%floats .and. .not. bearing%shaft_fixed) call begin_falling(bearing, march)
+    if (settings%loss_time > 0.0_wp) call begin_losses(settings%loss_time, bearing)
   end subroutine begin_march
+
+  !> From now on meshed foils lose what goes with the rate of their elastic forces.
+  subroutine begin_losses(time, bearing)
+    real(wp), intent(in) :: time !! of the losses over the stiffness [s]
+    type(bearing_system_type), intent(inout) :: bearing !! with its matrix
+    Mat :: stiffness
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatDuplicate(bearing%jacobian, MAT_DO_NOT_COPY_VALUES, stiffness, ierr))
+    call fill_springs(bearing, stiffness)
+    call bearing%losses%begin(time, stiffness, bearing%state)
+  end subroutine begin_losses
 
   !> Begins with a given past instead, in equal steps.
   subroutine resume_march(unknown, velocity, bearing, march)
@@ -345,7 +359,8 @@ contains
     else
       bearing%point%place(:2) = march%start%place(:2) + march%drive%orbit_at(time)
     end if
-    if (bearing%momentum%present) call bearing%momentum%prepare(weight, march%state(1), march%state(2))
+    if (bearing%momentum%present) call bearing%momentum%prepare(weight, march%settings%loss_time, march%state(1), march%state(2))
+    call bearing%losses%prepare(weight, march%state(1), march%state(2))
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), past => march%pad(i))
         pad%film%storage = weight(0)
@@ -456,6 +471,7 @@ contains
       PetscCallA(VecDestroy(march%state(i), ierr))
     end do
     call bearing%momentum%destroy()
+    call bearing%losses%destroy()
     bearing%point%inertia = 0.0_wp
     if (bearing%floats) bearing%point%place = place_of(bearing)
     do i = 1, size(bearing%pad)

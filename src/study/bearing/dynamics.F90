@@ -320,6 +320,7 @@ contains
 
     vibration%stick = scene%dynamics%contact_tangent == tangent_stick
     vibration%loss_factor = scene%dynamics%loss_factor
+    vibration%damping_time = scene%foil_damping%loss_time()
     if (scene%foil_damping%foundation_damping > 0.0_wp) then
       vibration%damping_time = scene%foil_damping%foundation_damping/foundation_stiffness(scene%model, scene%bump_foil)
     end if
@@ -336,6 +337,10 @@ contains
 
     if (scene%thermal%present) then
       call log%line('heat: temperatures stay as they are, with the clearance they leave: they change in seconds')
+    end if
+    if (scene%foil_damping%loss_time() > 0.0_wp) then
+      call log%line('losses: viscous ones of the foils, with the loss factor '//text(scene%foil_damping%loss_factor, digits)// &
+                    ' at '//text(scene%foil_damping%loss_frequency, digits)//' rad/s')
     end if
     if (.not. meshes_foils(scene%model%foil)) return
     call log%line('contacts: closed ones stay closed, and if they rub '// &

@@ -105,6 +105,7 @@ contains
       map%drive%unbalance_angle = scene%unbalance%angle
       map%settings%damping = scene%foil_damping%foundation_damping
       map%settings%arm = scene%foil_damping%arm
+      map%settings%loss_time = scene%foil_damping%loss_time()
       map%turns = 1
       if (periodic%motion /= motion_free) map%turns = periodic%period_turns
       map%steps = periodic%steps_per_turn*map%turns

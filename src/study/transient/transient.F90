@@ -246,6 +246,7 @@ contains
     settings%tolerance = scene%transient%time_tolerance
     settings%damping = scene%foil_damping%foundation_damping
     settings%arm = scene%foil_damping%arm
+    settings%loss_time = scene%foil_damping%loss_time()
     settings%end_time = duration_of(scene%transient, scene%operation)
   end function settings_of
 
