@@ -56,6 +56,7 @@ COARSER = (  # which inputs, what is changed
     (r"transient_(unbalance|run_up|rotor)", {"mesh": {"circumferential_elements": 48, "axial_elements": 6}, "transient": {"turns": 2, "steps_per_turn": 60,
                                                "steady_tolerance": 0.0}}),
     (r"three_pads_stability", {"mesh": {"axial_elements": 4, "arc_elements": 4, "flat_elements": 1}, "sweep": {"values": (30000.0, 20000.0)}}),
+    (r"three_pads_high_speed", {"mesh": {"axial_elements": 4, "arc_elements": 4, "flat_elements": 1}, "sweep": {"values": (0.7, 0.8)}}),
     (r"periodic_limit_cycles", {"mesh": {"circumferential_elements": 24, "axial_elements": 4}, "periodic": {
         "motion": "forced", "parameter": "unbalance", "final_value": 1.2e-5, "steps_per_turn": 20, "points": 1}, "unbalance": {"unbalance": 1.0e-5}}),
     (r"transient_drop", {"mesh": {"circumferential_elements": 48, "axial_elements": 6}, "transient": {"duration": 0.004, "steps_per_turn": 200}}),
