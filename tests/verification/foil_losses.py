@@ -17,6 +17,7 @@ import h5py
 import numpy
 
 from gfb_run import Checks, largest_difference, solve, write_case
+from heat import changed, foils_at
 from periodic import orbits
 from restart import SEED, check_kills, run_time
 from small_motions import OMEGA, case, harmonic
@@ -194,6 +195,20 @@ def check_reduction(checks, folder):
     checks.below("beams: two bearings alike", largest_difference(one, orbit(history(solve(folder, "two", content))), 1.0), 1.0e-8)
 
 
+def check_temperature(checks, folder):
+    """Foils whose modulus follows their temperature lose as those do that have this modulus, over time with modes inside."""
+    modulus, ratios = 214.0e9, (0.86, 0.9 + 0.1*15.0/107.0)  # at 420 K, at 385 K
+    table = {"modulus_temperatures": (293.0, 400.0, 600.0), "modulus_ratios": (1.0, 0.9, 0.5)}
+    moving = {"scene": {"analysis": "transient"}, "rotor": {"mass": 1.0}, "solver": TIGHT, "unbalance": {"unbalance": 2.0e-6},
+              "transient": {"turns": 1.0, "steps_per_turn": 60}, "foil_damping": {"foil_mass": "on", **LOSSES}}
+    found = [orbit(history(solve(folder, "hot", groups))) for groups in (
+        changed(foils_at([modulus*ratio for ratio in ratios], SHELLS), **moving),
+        changed(foils_at((modulus, modulus), SHELLS), thermal=table, **moving),
+        changed(foils_at((modulus, modulus), SHELLS), **moving))]
+    checks.below("shells that soften, against their modulus typed", largest_difference(found[1], found[0], 1.0), 1.0e-8)
+    checks.that("their modulus is felt", largest_difference(found[2], found[0], 1.0) > 1.0e-4)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
@@ -206,6 +221,7 @@ def main():
             check_onset(checks, folder, "shell")
             check_frequencies(checks, folder, "plate", "on")
             check_growth(checks, folder, "plate", "on")
+            check_temperature(checks, folder)
             check_reduction(checks, folder)
             check_stops(checks, folder)
         else:
