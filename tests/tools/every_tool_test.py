@@ -27,6 +27,7 @@ from damage_test import CASE  # noqa: E402 (found only now)
 from gfb import coefficients, manual  # noqa: E402
 from gfb.bench.runs import kept_rows  # noqa: E402
 from gfb.gallery import strip as gallery_strip  # noqa: E402
+from gfb.key_tables import key_tables  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.results import SEAL_LENGTH, Unreadable, read_json  # noqa: E402
 from gfb.tool import run  # noqa: E402
@@ -218,6 +219,20 @@ class Files(unittest.TestCase):
                 there.update(file)
         self.assertLessEqual({"scene", "summary", "dynamics", "contact"}, there)
         self.assertEqual([name for name in sorted(there) if f"| `/{name}` |" not in page], [])
+
+    def test_keys_as_a_table_a_group(self):
+        """Every key is there once, with all that the program says of it; a group of no purpose is noticed."""
+        printed = subprocess.run([os.environ["GFB"], "--keys"], capture_output=True, text=True, check=True).stdout
+        made = key_tables(printed)
+        for name, part in re.findall(r"^## &(\w+)\n(.*?)(?=^## |\Z)", made, re.MULTILINE | re.DOTALL):
+            rows = re.findall(rf"^\| `&{name}` \| (`\w+`) \| (.*?) \| (.*?) \| (.*?) \| (.*) \|$", printed, re.MULTILINE)
+            self.assertEqual([row[0] for row in rows], re.findall(r"^\| (`\w+`) \|", part, re.MULTILINE))
+            for (key, kind, unit, default, meaning), line in zip(rows, re.findall(r"^\| `.*$", part, re.MULTILINE)):
+                said = [unit if unit not in ("", "1") else "", meaning, default.partition(" ")[2] or default, re.sub(r"^[^`']*", "", kind)]
+                self.assertEqual([words for words in said if words not in line], [], key)
+        self.assertEqual(len(re.findall(r"^\| `&", printed, re.MULTILINE)), len(re.findall(r"^\| `", made, re.MULTILINE)))
+        with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+            key_tables(printed.strip() + "\n| `&novel` | `a` | real | m | none | b |\n")
 
     def test_pages_programs_and_sources(self):
         page = self.folder/"keys.md"

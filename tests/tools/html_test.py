@@ -92,6 +92,23 @@ class HtmlTest(unittest.TestCase):
         self.assertEqual(done.stdout.count('class="MathJax_SVG"') + done.stdout.count('class="MathJax_SVG MathJax'), equations)
         self.assertNotRegex(done.stdout, r"class=\"[^\"]*(merror|noError)")
 
+    @unittest.skipUnless(BROWSER, "Chromium is not installed")
+    def test_pages_fit_a_telephone(self):
+        """No page scrolls to the side, on a telephone or on a screen; a table that is wider does by itself."""
+        for name in ("README", "manual/keys", "manual/results", "manual/three_pad_rotor"):
+            for width in (360, 1300):
+                frame = self.folder/"docs/frame.html"
+                self.addCleanup(frame.unlink, missing_ok=True)
+                frame.write_text(f'<iframe src="{name}.html" width={width} height=900 style="border:0"></iframe><p></p><script>onload = () => {{'
+                                 "const page = document.querySelector('iframe').contentDocument.documentElement;"
+                                 "document.querySelector('p').textContent = `wide ${page.scrollWidth} of ${page.clientWidth}`}</script>", encoding="utf-8")
+                done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--allow-file-access-from-files",
+                                       f"--user-data-dir={self.place/'profile'}", "--virtual-time-budget=30000", "--window-size=1400,1000", "--dump-dom",
+                                       frame.as_uri()], capture_output=True, text=True, check=True, timeout=120)
+                wide, of = map(int, re.search(r"wide (\d+) of (\d+)", done.stdout).groups())
+                self.assertLessEqual(wide, of, f"{name} at {width}")
+                self.assertGreater(of, width - 20)
+
     def test_another_folder_stays(self):
         other = self.place/"other"
         other.mkdir()

@@ -1,6 +1,6 @@
 """Puts the tables that gfb prints into the manual; with --check only compares.
 
-  gfb --keys       every key of a case file    docs/manual/keys.md
+  gfb --keys       every key of a case file    docs/manual/keys.md: a table a group
   gfb --results    every name of a result      docs/manual/results.md
                    what the files hold         docs/manual/result_files.md: found in small runs
   gfb --help       options                     share/: man page, completion of bash, zsh and fish
@@ -18,6 +18,7 @@ import pathlib
 import re
 import sys
 
+from gfb.key_tables import key_tables
 from gfb.layout import layout_tables
 from gfb.run import call, find_gfb
 from gfb.shell import pages
@@ -27,13 +28,14 @@ TABLES = ("keys", "results")  # an option of gfb and a page each
 
 
 def table_of(gfb, name):
-    """What the program prints."""
+    """What the program prints; of its keys a table a group."""
     done = call([gfb, f"--{name}"])
     if done.status != 0:
         stop(f"{gfb} --{name} ended with status {done.status}:\n{done.complaint}", 3)
     if not done.log.startswith("| "):
         stop(f"{gfb} --{name}: no table; is it gfb?")
-    return done.log.strip() + "\n"
+    table = done.log.strip() + "\n"
+    return key_tables(table) if name == "keys" else table
 
 
 def place_of(text, name, path):

@@ -21,11 +21,12 @@ html_theme = "alabaster"
 html_theme_options = {"page_width": "75em", "sidebar_width": "15em", "fixed_sidebar": True, "body_max_width": "none", "font_size": "15px", "font_family": "sans-serif",
                       "show_powered_by": False}
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
+html_static_path, html_css_files = ["static"], ["manual.css"]
 html_copy_source = False
 html_show_sourcelink = False
 
 WAY = {
-    "Tutorials": ["README", "first_steps", "first_bearing", "first_thrust_bearing", "data_sheet", "first_sweep", "misaligned_shaft", "first_strip", "python"],
+    "Tutorials": ["README", "first_steps", "first_bearing", "first_thrust_bearing", "data_sheet", "first_sweep", "misaligned_shaft", "three_pad_rotor", "first_strip", "python"],
     "How to": ["model_and_mesh", "accuracy", "bearing_mesh", "bearing", "strip", "sweeps", "branches", "pads", "gas_and_bore", "heat", "dynamics", "ensembles", "cluster", "linear_solvers",
                "restart", "no_answer", "failures", "*"],
     "Reference": ["keys", "results", "CHANGELOG", "references"],
