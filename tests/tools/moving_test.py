@@ -369,7 +369,7 @@ class StepsTest(unittest.TestCase):
     def test_heights_and_displacements_are_drawn_larger_as_the_title_says(self):
         surface = rolled.Surface("top_foil", "top_foil", numpy.array([[0.0, 2.0e-3, 1.0]]), numpy.zeros((0, 4)), 1,
                                  {"displacement": numpy.array([[0.0, -1.0e-6, 0.0]])}, {})
-        shaft = rolled.Shaft(0.02, 0.0, 3.0e-3, 0.0)
+        shaft = rolled.Shaft(0.02, (0.0,), 3.0e-3, 0.0)
         numpy.testing.assert_allclose(surface.rolled(shaft, 5.0, 100.0), [[0.02 + 5.0e-3 + 1.0e-4, 0.0, 1.0]])
 
 

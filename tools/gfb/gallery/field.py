@@ -1,13 +1,14 @@
 """Pages of [Gu2020] figs. 12 and 13: pressure and film height of the tilted bearing."""
 
 import numpy
-from matplotlib import pyplot
+from matplotlib import colors, pyplot
 
 from gfb.gallery.bearing import AS_IT_IS, MICRO, TOP_LEADING, ambient, frictions, mesh_variants
 from gfb.gallery.page import Page, input_link
 from gfb.gallery.tilt import (HELD, MODELS, N_MM, SYMMETRIC, TILT, answers, antisymmetric, asymmetry, judge, place_of_peak, radians,
                           regions)
 from gfb.plot import film as plot_film
+from gfb.plot.colours import look_of
 
 
 def draw_pressures(runs, folder):
@@ -127,10 +128,10 @@ def draw_pressure_maps(answer):
     for (whole, part), (model, words) in zip(axes, MODELS.items()):
         one = answer.held[model]
         over = one.film.fields["pressure"]/ambient(one)
-        plot_film.draw_map(figure, whole, one.film, over, numpy.arange(0.7, top + 0.1, 0.1))
+        plot_film.draw_map(figure, whole, one.film, over, 1.0 - deep, top, look_of("pressure", 1.0 - deep, top))
         whole.set_title(f"{words}: p/p_a", fontsize=10)
-        plot_film.draw_map(figure, part, one.film, numpy.maximum(1.0 - over, 0.0), numpy.arange(0.0, deep + 0.01, 0.01),
-                           cmap="magma_r")
+        plot_film.draw_map(figure, part, one.film, numpy.maximum(1.0 - over, 0.0), 0.0, deep,
+                           {"cmap": "magma_r", "norm": colors.Normalize(0.0, deep)})
         part.set_title(f"{words}: sub-ambient part, 1 - p/p_a; asymmetry {asymmetry(one):.2f}", fontsize=10)
     for chart in axes[-1]:
         plot_film.label_theta(chart, one.film)
@@ -144,11 +145,12 @@ def draw_film_maps(answer):
     """Film height as a map and along three lines, a row a model."""
     figure, axes = pyplot.subplots(2, 2, figsize=(11.0, 6.0), layout="constrained")
     figure.suptitle(answer.name, fontsize=11)
-    top = MICRO*max(one.film.fields["gap"].max() for one in answer.held.values())
+    gaps = [MICRO*one.film.fields["gap"] for one in answer.held.values()]
+    low, top = min(gap.min() for gap in gaps), max(gap.max() for gap in gaps)
     for (chart, lines), (model, words) in zip(axes, MODELS.items()):
         film = answer.held[model].film
         gap = MICRO*film.fields["gap"]
-        plot_film.draw_map(figure, chart, film, gap, numpy.arange(0.0, top + 4.0, 4.0))
+        plot_film.draw_map(figure, chart, film, gap, low, top, look_of("gap", low, top))
         chart.set_title(f"{words}: film height [um]", fontsize=10)
         for row, style in ((-1, "--"), (film.middle, "-"), (0, ":")):
             lines.plot(film.theta, gap[:, row], style, label=f"z = {1.0e3*film.z[row] + 0.0:.4g} mm")

@@ -1,11 +1,12 @@
 """Moving pictures: film and foil over the steps of a sweep or of time, or the orbit of a shaft; a GIF, or an MP4 where ffmpeg is."""
 
 import numpy
-from matplotlib import animation, colors, pyplot
+from matplotlib import animation, pyplot
 
 from gfb import steps
 from gfb.plot import transient
-from gfb.plot.film import WORDS, around_zero, read_film
+from gfb.plot.colours import draw_bar, look_of
+from gfb.plot.film import WORDS, label_theta, read_film
 from gfb.plot.scene import case_name, step_words
 from gfb.results import open_results
 from gfb.tables import READABLE
@@ -69,19 +70,19 @@ def of_film(path, file):
         every = [film.readable(name)[0] for film in films]
         unit = READABLE.get(films[0].units[name], (films[0].units[name],))[0]
         low, high = min(one.min() for one in every), max(one.max() for one in every)
-        shades = around_zero(numpy.array((low, high))) if name == "deflection" and low < 0.0 else \
-            {"norm": colors.Normalize(low, high), "cmap": "viridis"}
-        mesh = chart.pcolormesh(films[0].theta, 1.0e3*films[0].z, every[0].T, shading="gouraud", **shades)
-        figure.colorbar(mesh, ax=chart, label=f"[{unit}]")
+        shades = look_of(name, low, high)
+        for pad in films[0].pads:
+            mesh = chart.pcolormesh(films[0].theta[pad], 1.0e3*films[0].z, every[0][pad].T, shading="gouraud", **shades)
+            meshes.append((mesh, [one[pad].T for one in every]))
+        draw_bar(figure, chart, **shades, label=f"[{unit}]")
         chart.set_title(WORDS[name], fontsize=10)
         chart.set_ylabel("z [mm]")
-        meshes.append((mesh, every))
-    axes[-1, 0].set_xlabel("theta [deg]")
+    label_theta(axes[-1, 0], films[0])
     title = figure.suptitle(" ", fontsize=11)
 
     def frame(number):
         for mesh, every in meshes:
-            mesh.set_array(every[number].T)
+            mesh.set_array(every[number])
         title.set_text(f"{case_name(steps.alone(path))}: {step_words(file, numbers[number])}, step {numbers[number] + 1} of {steps.count(file)}")
 
     return figure, frame, len(films), PACE

@@ -5,12 +5,11 @@ import math
 
 import numpy
 
-from gfb.plot.scene import number
+from gfb.plot.scene import leading_edges, number
 
 MICRO = 1.0e6
 TURN = 2.0*math.pi
 DIRECTIONS = 1441  # of the limit that is drawn
-MOST_PADS = 1000   # more are none of gfb
 OPEN = 1.5         # of the clearance: where nothing is nearer the limit is not drawn
 SAME = 1.0e-9      # angles and lengths that differ less are one
 
@@ -54,14 +53,8 @@ def bearing_of(keys):
     radius, clearance = number(keys, "bearing", "radius"), number(keys, "bearing", "clearance")
     if radius is None or clearance is None:
         return None
-    count = int(number(keys, "pads", "count") or 1)
-    if not 0 < count <= MOST_PADS:
-        raise ValueError(f"scene/used: {count} pads")
-    first = number(keys, "pads", "first_leading_edge")
-    if first is None:
-        first = number(keys, "bearing", "leading_edge_angle") or 0.0
-    begins = tuple(first + TURN*pad/count for pad in range(count))
-    arc = arc_of(keys, count, first)
+    begins = leading_edges(keys)
+    arc = arc_of(keys, len(begins), begins[0])
     shift = (number(keys, "pads", "preload") or 0.0)*clearance
     offset = number(keys, "pads", "preload_offset")
     narrowest = tuple(begin + (0.5 if offset is None else offset)*arc for begin in begins)

@@ -3,9 +3,10 @@
 import dataclasses
 
 import numpy
-from matplotlib import colors, pyplot
+from matplotlib import pyplot
 
-from gfb.plot.scene import draw_edges, round_numbers, scene_of
+from gfb.plot.colours import draw_bar, levels_of, look_of
+from gfb.plot.scene import draw_edges, scene_of
 from gfb.results import attribute
 from gfb.tables import READABLE
 from gfb.tool import stop
@@ -13,8 +14,6 @@ from gfb.tool import stop
 FIELDS = ("pressure", "gap", "deflection")
 WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
 ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane
-BANDS = 20  # colours of a map, about
-SIGNED = {"deflection"}  # fields with colours on both sides of zero
 
 
 @dataclasses.dataclass
@@ -25,6 +24,18 @@ class Film:
     z: numpy.ndarray      # of the rows, from the midplane [m]
     fields: dict          # name: values on (station, row), in SI units
     units: dict           # name: unit
+    ends: tuple = ()      # of the pads: station behind the last one of each
+
+    @property
+    def pads(self):
+        """Stations of every pad."""
+        ends = self.ends or (len(self.theta),)
+        return [slice(first, last) for first, last in zip((0, *ends), ends)]
+
+    def broken(self, values):
+        """theta, and values on the stations, with nothing between pads: a line over them has a gap where a bearing has one."""
+        inside = self.ends[:-1]
+        return numpy.insert(self.theta, inside, numpy.nan), numpy.insert(values, inside, numpy.nan, axis=0)
 
     @property
     def middle(self):
@@ -58,8 +69,10 @@ def read_film(path, file, names=FIELDS):
     there = [name for name in names if name in fields]
     z = points[:rows, 2]
     z = z - 0.5*(z[0] + z[-1])  # of the second bearing of a rotor, too, from its midplane
+    pad = fields["pad"][...].reshape(shape)[:, 0] if "pad" in fields else numpy.ones(shape[0])
+    ends = (*(int(last) + 1 for last in numpy.flatnonzero(numpy.diff(pad))), shape[0])
     return Film(theta, z, {name: fields[name][...].reshape(shape) for name in there},
-                {name: attribute(fields[name], "unit") for name in there})
+                {name: attribute(fields[name], "unit") for name in there}, ends)
 
 
 def draw_film(path, file):
@@ -74,26 +87,26 @@ def draw_film(path, file):
     at_middle = abs(axial[middle]) <= ROUND_OFF*(axial[-1] - axial[0])
     for (chart, lines), name in zip(axes, names):
         values, unit = film.readable(name)
-        draw_map(figure, chart, film, values, BANDS, **(around_zero(values) if name in SIGNED else {}))
+        draw_map(figure, chart, film, values, values.min(), values.max(), look_of(name, values.min(), values.max()))
         chart.set_title(f"{WORDS[name]} [{unit}]", fontsize=10)
-        lines.plot(film.theta, values[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
-        draw_edges(lines, film.theta, values, axial)
+        theta, shown = film.broken(values)
+        lines.plot(theta, shown[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
+        draw_edges(lines, theta, shown, axial)
         mark_load((chart, lines), film, scene)
         if name == "gap":
             mark_thinnest(chart, lines, film, values, unit)
         lines.set_ylabel(f"{WORDS[name]} [{unit}]")
         lines.grid(alpha=0.3)
-        lines.legend(fontsize=8)
+        legend_above(lines)
     for one in axes[-1]:
         label_theta(one, film)
     figure.suptitle(scene.title(path), fontsize=11)
     return figure
 
 
-def around_zero(values):
-    """Colours of a field with a sign: white is zero."""
-    largest = float(numpy.abs(values).max())
-    return {"cmap": "RdBu_r", "norm": colors.Normalize(-largest, largest)}
+def legend_above(chart):
+    """A legend that covers no line."""
+    chart.legend(fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False, borderpad=0.1)
 
 
 def mark_load(charts, film, scene):
@@ -115,17 +128,18 @@ def mark_thinnest(chart, lines, film, values, unit):
                label=f"thinnest, {values[station, row]:.3g} {unit}")
 
 
-def draw_map(figure, chart, film, values, levels, **look):
-    """Colours over theta and z, with their scale; levels: the borders of the colours, or about how many."""
-    if numpy.ndim(levels) == 0 and numpy.ptp(values) > 0.0:
-        levels = round_numbers(levels).tick_values(values.min(), values.max())
-    figure.colorbar(chart.contourf(film.theta, 1.0e3*film.z, values.T, levels=levels, **look), ax=chart, ticks=round_numbers(6),
-                    spacing="proportional")
+def draw_map(figure, chart, film, values, low, high, look, extend="neither"):
+    """Colours over theta and z between two values, a patch a pad, with their scale."""
+    levels = levels_of(low, high, look["norm"])
+    for pad in film.pads:
+        chart.contourf(film.theta[pad], 1.0e3*film.z, values[pad].T, levels=levels, extend=extend, **look)
+    draw_bar(figure, chart, **look, extend=extend)
     chart.set_ylabel("z [mm]")
 
 
 def label_theta(chart, film):
-    """The axis along the motion."""
+    """The axis along the motion: of pads with gaps the whole turn."""
+    end = film.theta[-1] if len(film.pads) == 1 else film.theta[0] + 360.0
     chart.set_xlabel("theta [deg]")
-    chart.set_xticks(numpy.arange(60.0*numpy.ceil(film.theta[0]/60.0), film.theta[-1] + 1.0, 60.0))
-    chart.set_xlim(film.theta[0], film.theta[-1])
+    chart.set_xticks(numpy.arange(60.0*numpy.ceil(film.theta[0]/60.0), end + 1.0, 60.0))
+    chart.set_xlim(film.theta[0], end)

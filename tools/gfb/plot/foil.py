@@ -5,8 +5,8 @@ import math
 import numpy
 from matplotlib import colors, pyplot
 
-from gfb.plot.film import around_zero
-from gfb.plot.scene import draw_edges, round_numbers, scene_of, theta_above
+from gfb.plot.colours import around_zero, draw_bar, levels_of, round_numbers
+from gfb.plot.scene import draw_edges, pad_of, scene_of, theta_above
 from gfb.tool import stop
 
 SHARE = 0.4        # of the foil's height: how far the picture moves the node that sinks most, at most
@@ -15,7 +15,6 @@ LEAST_SIDE = 0.22  # of a mode's box over its longest one, to show narrow foils
 ROUND_OFF = 1.0e-9 # of the foil's height: a smaller displacement is none
 LINES = 14         # of a wireframe along each direction, at most
 MOST_LABELLED = 14 # bars that carry their value
-BANDS = 20         # colours of a map
 
 
 def is_foil(file):
@@ -39,14 +38,13 @@ def draw(path, file, columns):
     shape = shape_of(path, file)
     points = file["VTKHDF/Points"][...].reshape(shape)
     fields = {name: file[f"VTKHDF/PointData/{name}"][...].reshape(shape) for name in columns or there[:1]}
-    scene = scene_of(path)
+    scene, name = scene_of(path), path.name.removesuffix(".vtkhdf").rpartition(".")[2]
     if list(fields) == ["displacement"]:
         flat = not numpy.ptp(points[:, :, 1]) > ROUND_OFF*numpy.ptp(points[:, :, 0])
-        figure = (draw_sheet if flat else draw_strip)(points, fields["displacement"], scene)
+        figure = (draw_sheet if flat else draw_strip)(points, fields["displacement"], scene, pad_of(name))
     else:
         figure = draw_modes(points, fields, scene)
-    what = path.name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
-    figure.suptitle(f"{scene.title(path)}: {what}", fontsize=11)
+    figure.suptitle(f"{scene.title(path)}: {name.replace('_', ' ')}", fontsize=11)
     return figure
 
 
@@ -78,7 +76,7 @@ def line_mean(values, z):
     return float(numpy.sum(0.5*(values[1:] + values[:-1])*numpy.diff(z))/(z[-1] - z[0]))
 
 
-def draw_strip(points, moved, scene):
+def draw_strip(points, moved, scene, pad):
     """The midline from the side, at rest and deflected; deflection along each crest and its mean."""
     z = points[0, :, 2]
     middle = int(numpy.argmin(numpy.abs(z)))
@@ -99,7 +97,7 @@ def draw_strip(points, moved, scene):
     side.plot(place[:, 0], place[:, 1], color="C0", label=f"deflected, displacements x {scale:g}")
     side.set(xlabel="x [mm]", ylabel="v [mm]", ylim=(None, 1.0e3*height*1.55))
     side.set_title("midline from the side, v drawn larger than x", fontsize=10)
-    theta_above(side, scene)
+    theta_above(side, scene, pad)
     side.legend(fontsize=8, ncols=2, loc="upper left")
     side.grid(alpha=0.3)
     numbers = range(1, len(crests) + 1)
@@ -119,14 +117,16 @@ def draw_strip(points, moved, scene):
     return figure
 
 
-def draw_sheet(points, moved, scene):
+def draw_sheet(points, moved, scene, pad):
     """A top foil: map of its deflection towards the sleeve, and that along the midplane and the two edges."""
     x, z = 1.0e3*points[:, 0, 0], 1.0e3*points[0, :, 2]
     deflection = -1.0e6*moved[:, :, 1]
     figure, (chart, lines) = pyplot.subplots(2, 1, figsize=(10.0, 5.6), layout="constrained", sharex=True)
-    bands = round_numbers(BANDS).tick_values(deflection.min(), deflection.max()) if numpy.ptp(deflection) > 0.0 else BANDS
-    figure.colorbar(chart.contourf(x, z, deflection.T, levels=bands, **around_zero(deflection)), ax=chart, ticks=round_numbers(6))
-    theta_above(chart, scene)
+    low, high = deflection.min(), deflection.max()
+    look = around_zero(low, high)
+    chart.contourf(x, z, deflection.T, levels=levels_of(low, high, look["norm"]), **look)
+    draw_bar(figure, chart, **look)
+    theta_above(chart, scene, pad)
     chart.set(ylabel="z [mm]")
     chart.set_title("deflection towards the sleeve [um]", fontsize=10)
     middle = int(numpy.argmin(numpy.abs(z)))

@@ -1,12 +1,13 @@
 """Heat of a bearing: temperatures of film and top foil over theta and width, where the heat goes, and all of it along a sweep."""
 
 import numpy
-from matplotlib import pyplot
+from matplotlib import colors, pyplot
 
 from gfb.heat import HEATED, balance, temperatures
-from gfb.plot.film import BANDS, ROUND_OFF, around_zero, draw_map, label_theta, mark_load, read_film, readable
+from gfb.plot.colours import around_zero, round_numbers
+from gfb.plot.film import ROUND_OFF, draw_map, label_theta, legend_above, mark_load, read_film, readable
 from gfb.plot.ring import draw_ring, is_ring
-from gfb.plot.scene import draw_edges, named, read_scene, round_numbers, scene_of
+from gfb.plot.scene import draw_edges, named, read_scene, scene_of
 from gfb.plot.strip import used_keys
 from gfb.tool import stop
 
@@ -36,7 +37,7 @@ def draw_film(path, file):
     if is_ring(file):
         if not any(name in file["VTKHDF/PointData"] for name in FIELDS):
             stop(f"{path}: no temperature in it: the case has no &thermal")
-        return draw_ring(path, file, FIELDS, lambda name, values: look_of(name, *scale_of(values)), scale_of)
+        return draw_ring(path, file, FIELDS, look_of, scale_of)
     film, scene = read_film(path, file, FIELDS), scene_of(path)
     if not film.fields:
         stop(f"{path}: no temperature in it: the case has no &thermal")
@@ -50,10 +51,11 @@ def draw_film(path, file):
         if name not in KILO and numpy.ptp(values) <= TINY*numpy.abs(values).max():
             values = numpy.full_like(values, values.mean())  # held at a temperature: rounding makes no bands
         low, high = scale_of(values)
-        draw_map(figure, chart, film, values, round_numbers(BANDS).tick_values(low, high), extend="both", **look_of(name, low, high))
+        draw_map(figure, chart, film, values, low, high, look_of(name, low, high), "both")
         chart.set_title(f"{FIELDS[name]} [{unit}]", fontsize=10)
-        lines.plot(film.theta, values[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
-        draw_edges(lines, film.theta, values, axial)
+        theta, shown = film.broken(values)
+        lines.plot(theta, shown[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
+        draw_edges(lines, theta, shown, axial)
         mark_load((chart, lines), film, scene)
         if name != "heat_flux_shaft":
             mark_hottest(chart, lines, film, values, unit)
@@ -63,7 +65,7 @@ def draw_film(path, file):
         lines.set_ylim(max(low - margin, values.min() - 0.2*margin), min(high + margin, values.max() + 0.2*margin))
         lines.set_ylabel(f"{FIELDS[name]} [{unit}]", fontsize=9)
         lines.grid(alpha=0.3)
-        lines.legend(fontsize=8)
+        legend_above(lines)
     for one in axes[-1]:
         label_theta(one, film)
     figure.suptitle(scene.title(path), fontsize=11)
@@ -83,10 +85,10 @@ def scale_of(values):
 def look_of(name, low, high):
     """Colours of a map: of heat that flows either way, white is none."""
     if name != "heat_flux_shaft":
-        return {"cmap": "inferno"}
+        return {"cmap": "inferno", "norm": colors.Normalize(low, high)}
     if low < 0.0 < high:
-        return around_zero(numpy.array((low, high)))
-    return {"cmap": "Reds" if high > 0.0 else "Blues_r"}
+        return around_zero(low, high)
+    return {"cmap": "Reds" if high > 0.0 else "Blues_r", "norm": colors.Normalize(low, high)}
 
 
 def mark_hottest(chart, lines, film, values, unit):

@@ -19,12 +19,12 @@
   tools/plot STRIP.h5 ...               strips under loads, one or several in a picture:
       --show bumps                        mean deflection of every crest line
       --show loop                         force against travel of the plate or largest crest deflection
-      --show contact                      where contacts are open, stick or slip (one file; also a bearing's)
+      --show contact                      where contacts are open, stick or slip, and their forces (one file; also a bearing's)
                                         without --show: loops where the load goes back, otherwise bumps
   tools/plot CASE.h5 --show campbell    frequency and damping of a rotor's modes, of a sweep over the speed
   tools/plot CASE.h5 ... --show map     critical mass over load and speed, of several sweeps
   tools/plot CASE.film.steps.vtkhdf     a step of a sweep's film or foils, the last one or that of --step
-  tools/plot --3d CASE.h5               film and foils rolled up on the shaft; beside the picture CASE.3d.vtkhdf for ParaView
+  tools/plot --3d CASE.h5               film and foils of all pads in space; of a journal beside the picture CASE.3d.vtkhdf for ParaView
   tools/plot --animate CASE.h5          moving picture of a sweep's film, or else of an orbit: a GIF, with -o NAME.mp4 an MP4
   tools/plot CASE.h5                    of analysis = 'transient': orbit, a small one once more and larger, and thinnest film over time
   tools/plot CASE.h5                    of analysis = 'periodic': the branch over its parameter, and its orbits
@@ -51,8 +51,9 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
 from gfb.plot import animation, dynamics, foil, heat, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot.colours import round_numbers  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
-from gfb.plot.scene import case_name, named, read_scene, round_numbers, step_words  # noqa: E402
+from gfb.plot.scene import case_name, named, read_scene, step_words  # noqa: E402
 from gfb.results import BROKEN, Unreadable, attribute, open_results, reading, text_of  # noqa: E402
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
@@ -81,7 +82,7 @@ def main():
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
     parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, polar.KIND, heat.KIND, *rotor.KINDS, *transient.KINDS),
                         help="what of a strip's or bearing's CASE.h5; polar, heat: of CASE.film.vtkhdf, too")
-    parser.add_argument("--3d", action="store_true", dest="rolled", help="film and foils rolled up on the shaft")
+    parser.add_argument("--3d", action="store_true", dest="rolled", help="film and foils in space")
     parser.add_argument("--picture-only", action="store_true", help="with --3d: no CASE.3d.vtkhdf")
     parser.add_argument("--animate", action="store_true", help="a moving picture of a sweep's film, or of an orbit")
     parser.add_argument("--step", type=step_numbers, default=[], metavar="N[,N...]",

@@ -6,7 +6,8 @@ import numpy
 from matplotlib import pyplot
 
 from gfb.plot.clearance import crests_of, draw_limit
-from gfb.plot.scene import case_name, round_numbers
+from gfb.plot.colours import round_numbers
+from gfb.plot.scene import case_name
 from gfb.plot.strip import used_keys
 
 MICRO = 1.0e6

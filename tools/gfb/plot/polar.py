@@ -3,8 +3,9 @@
 import numpy
 from matplotlib import pyplot
 
+from gfb.plot.colours import round_numbers
 from gfb.plot.film import ROUND_OFF, WORDS, read_film
-from gfb.plot.scene import round_numbers, scene_of
+from gfb.plot.scene import scene_of
 from gfb.tool import stop
 
 KIND = "polar"
@@ -20,10 +21,9 @@ def draw(path, file):
     names = [name for name in SHOWN if name in film.fields]
     if not names:
         stop(f"{path}: no pressure or gap in it")
-    pads = pads_of(file, film)
     figure, axes = pyplot.subplots(1, len(names), figsize=(5.6*len(names), 6.3), squeeze=False, subplot_kw={"projection": "polar"})
     for chart, name in zip(axes[0], names):
-        draw_field(chart, film, pads, name)
+        draw_field(chart, film, name)
         mark_load(chart, scene)
         if name == "gap":
             mark_thinnest(chart, film)
@@ -34,17 +34,7 @@ def draw(path, file):
     return figure
 
 
-def pads_of(file, film):
-    """Stations of every pad."""
-    stations = numpy.arange(len(film.theta))
-    fields = file["VTKHDF/PointData"]
-    if "pad" not in fields:
-        return [stations]
-    pad = fields["pad"][...].reshape(len(stations), -1)[:, 0]
-    return [stations[pad == one] for one in numpy.unique(pad)]
-
-
-def draw_field(chart, film, pads, name):
+def draw_field(chart, film, name):
     """A field over theta, a line a row that is shown, and the pads' edges."""
     values, unit = film.readable(name)
     rows = [(film.middle, "-", "midplane" if abs(film.z[film.middle]) <= ROUND_OFF*numpy.ptp(film.z) else
@@ -56,12 +46,13 @@ def draw_field(chart, film, pads, name):
     low, high = 0.0 if name == "gap" else float(shown.min()), float(shown.max())  # a film that is thin looks thin
     span = high - low if high - low > ROUND_OFF*abs(high) else abs(high) or 1.0
     angle = numpy.radians(film.theta)
+    pads = film.pads
     for pad in pads:
         for colour, (row, style, label) in enumerate(rows):
-            chart.plot(angle[pad], values[pad, row], style, color=f"C{colour}", linewidth=1.4, label=label if pad is pads[0] else None)
-        for end in (pad[0], pad[-1]):
+            chart.plot(angle[pad], values[pad, row], style, color=f"C{colour}", linewidth=1.4, label=label if pad == pads[0] else None)
+        for end in (pad.start, pad.stop - 1):
             chart.plot(2*[angle[end]], (low, high + ROOM*span), color="0.45", linewidth=0.9,
-                       label="pad edges" if pad is pads[0] and end == pad[0] else None)
+                       label="pad edges" if end == 0 else None)
     inside = 0.0 if name == "gap" else ROOM*span  # the shaft is where the film is zero
     chart.set_ylim(low - inside, high + ROOM*span)
     chart.set_rorigin(low - HOLE*span - inside)

@@ -3,9 +3,10 @@
 import numpy
 from matplotlib import pyplot
 
-from gfb.plot.film import BANDS, ROUND_OFF, SIGNED, WORDS, around_zero, readable
+from gfb.plot.colours import around_zero, draw_bar, levels_of, look_of, round_numbers
+from gfb.plot.film import ROUND_OFF, WORDS, readable
 from gfb.plot.foil import round_scale, shape_of
-from gfb.plot.scene import round_numbers, scene_of
+from gfb.plot.scene import scene_of
 
 TRAVEL = 0.15  # of a pad's longer side: how far the picture moves the node that moves most, at most
 FLATTEST = 0.25  # of a box over its longest side
@@ -33,11 +34,6 @@ def draw_outline(chart, points):
     chart.plot(points[0, :, 0], points[0, :, 1], color="k", linewidth=1.4)
 
 
-def look_of(name, values):
-    """Colours of a field of the film."""
-    return around_zero(values) if name in SIGNED else {}
-
-
 def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (values.min(), values.max())):
     """A map a field that has words, seen from the runner: it turns from x to y."""
     fields, points = file["VTKHDF/PointData"], 1.0e3*file["VTKHDF/Points"][...]
@@ -46,17 +42,19 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
     sectors = sectors_of(file)
     for chart, name in zip(axes[0], names, strict=True):
         values, unit = readable(fields[name])
-        levels = round_numbers(BANDS).tick_values(*bounds(values)) if numpy.ptp(values) > 0.0 else BANDS
-        beyond = "both" if numpy.ptp(bounds(values)) < numpy.ptp(values) else "neither"
+        low, high = bounds(values)
+        shades = look(name, low, high)
+        levels = levels_of(low, high, shades["norm"])
+        beyond = "both" if high - low < numpy.ptp(values) else "neither"
         for nodes in sectors:
-            drawn = chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, extend=beyond, **look(name, values))
+            chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, extend=beyond, **shades)
             draw_outline(chart, points[nodes])
         if name == "gap":
             thinnest = int(numpy.argmin(values))
             chart.plot(points[thinnest, 0], points[thinnest, 1], "o", color="w", markeredgecolor="k", markersize=6.0, zorder=5)
             chart.text(0.5, 0.5, f"thinnest\n{values[thinnest]:.3g} {unit}", transform=chart.transAxes, ha="center", va="center",
                        fontsize=9)
-        figure.colorbar(drawn, ax=chart, location="bottom", ticks=round_numbers(6), spacing="proportional")
+        draw_bar(figure, chart, **shades, location="bottom", extend=beyond)
         chart.set_title(f"{words[name]} [{unit}]", fontsize=10)
         chart.set_aspect("equal")
         chart.set_xlabel("x [mm]")
@@ -73,10 +71,10 @@ def draw_foil(path, file):
     if points[:, :, 2].mean() > 0.0:  # of the bearing on the runner's other side, which is drawn as if it faced up, too
         moved, points = -moved, points*[1.0, 1.0, -1.0]
     away = -1.0e6*moved
-    bands = round_numbers(BANDS).tick_values(away.min(), away.max()) if numpy.ptp(away) > 0.0 else BANDS
     figure = pyplot.figure(figsize=(11.0, 5.2), layout="constrained")
     chart, space = figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2, projection="3d")
-    drawn = chart.contourf(points[:, :, 0], points[:, :, 1], away, levels=bands, **around_zero(away))
+    look = around_zero(away.min(), away.max())
+    drawn = chart.contourf(points[:, :, 0], points[:, :, 1], away, levels=levels_of(away.min(), away.max(), look["norm"]), **look)
     draw_outline(chart, points)
     words = "deflection away from the runner [um]"
     if "contact_state" in fields:
@@ -88,7 +86,7 @@ def draw_foil(path, file):
     chart.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
     chart.set_title(words, fontsize=10)
     draw_in_space(space, points, moved, drawn)
-    figure.colorbar(drawn, ax=[chart, space], location="bottom", shrink=0.5, ticks=round_numbers(6), spacing="proportional")
+    draw_bar(figure, [chart, space], **look, location="bottom", shrink=0.5)
     what = path.name.removesuffix(".vtkhdf").rpartition(".")[2].replace("_", " ")
     figure.suptitle(f"{scene_of(path).title(path)}: {what}\nthe runner turns from x to y; the leading edge is black", fontsize=10)
     return figure

@@ -1,4 +1,4 @@
-"""Film and foils rolled up on the shaft: a picture with heights and displacements drawn larger, and CASE.3d.vtkhdf for ParaView."""
+"""Film and foils in space, rolled up on the shaft or on a runner: a picture with heights and displacements drawn larger, and CASE.3d.vtkhdf."""
 
 import contextlib
 import dataclasses
@@ -8,33 +8,39 @@ import os
 import h5py
 import numpy
 from matplotlib import colors, pyplot
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from gfb import steps
+from gfb.plot.colours import around_zero, draw_bar
 from gfb.plot.film import WORDS
 from gfb.plot.foil import round_scale
-from gfb.plot.scene import case_name, number, round_numbers, scene_of
+from gfb.plot.scene import case_name, leading_edges, number, of_pad, pad_of, scene_of
 from gfb.plot.strip import used_keys
 from gfb.results import attribute, open_results
 from gfb.tool import stop
 
 HEIGHT = 0.3     # of the radius: how high the picture makes the bumps
 TRAVEL = 0.15    # of the radius: how far it moves the node that moves most, at most
-LINES = 240      # stations of a picture, about
+LINES = 240      # stations of a pad in a picture, about
+ROWS = 40        # its rows, about
 LONG = 2.5       # longest side over the shortest from which on the picture comes nearer: two bearings of a rotor
 ELEVATION, AZIMUTH = 24.0, -58.0
+BELOW = {"location": "bottom", "shrink": 0.6, "pad": 0.0}  # of a colour bar
 VTK_QUAD = 9
 ROUND_OFF = 1.0e-9  # of z [m]
-LIGHT = colors.LightSource(azdeg=200.0, altdeg=50.0)
+LIGHT = numpy.array((-0.22, 0.77, -0.60))  # whence it shines
+SHADOW = 0.65    # brightness of what turns away from it
 
 
 @dataclasses.dataclass
 class Shaft:
     """What film and foils are rolled up on."""
 
-    radius: float  # of the shaft [m]
-    begin: float   # theta where foils begin [rad]
+    radius: float  # of the shaft, or of a runner [m]
+    begins: tuple  # theta where the foils of each pad begin [rad]
     level: float   # height of the top foil at rest, which lies a clearance off the shaft [m]
     clearance: float
+    runner: bool = False  # surfaces are sectors, which lie in space already
 
 
 @dataclasses.dataclass
@@ -51,10 +57,12 @@ class Surface:
 
     def angle(self, shaft):
         """theta of the points [rad]."""
-        return self.fields["theta"] if self.kind == "film" else shaft.begin + self.points[:, 0]/shaft.radius
+        return self.fields["theta"] if self.kind == "film" else of_pad(shaft.begins, pad_of(self.name)) + self.points[:, 0]/shaft.radius
 
     def rolled(self, shaft, height=1.0, travel=0.0):
         """Places of the points, moved by `travel` displacements, with heights off the shaft drawn larger [m]."""
+        if shaft.runner:
+            return self.points*[1.0, 1.0, height] + (0.0 if self.kind == "film" else travel*self.fields["displacement"])
         angle, off, z = self.angle(shaft), numpy.zeros(len(self.points)), self.points[:, 2]
         if self.kind != "film":
             moved = travel*self.fields["displacement"]
@@ -62,6 +70,13 @@ class Surface:
             off = height*(shaft.clearance + shaft.level - self.points[:, 1]) - moved[:, 1]
         far = shaft.radius + off
         return numpy.column_stack((far*numpy.cos(angle), far*numpy.sin(angle), z))
+
+    def away(self, shaft):
+        """How far the points of a foil are away from shaft or runner, against where they rest [m]."""
+        if not shaft.runner:
+            return -self.fields["displacement"][:, 1]
+        faces_up = self.points[:, 2].mean() <= 0.0  # those of a bearing on the runner's other side do not
+        return (-1.0 if faces_up else 1.0)*self.fields["displacement"][:, 2]
 
     def displacement(self, shaft):
         """Displacement vectors of the rolled points [m]."""
@@ -108,16 +123,17 @@ def read_shaft(case, surfaces):
     """The shaft, from CASE.h5."""
     with open_results(case) as file:
         keys = used_keys(file)
-    radius = number(keys, "bearing", "radius")
-    if radius is None:
+    radius, outer = number(keys, "bearing", "radius"), number(keys, "bearing", "outer_radius")
+    if radius is None and outer is None:
         stop(f"{case}: not a bearing, there is nothing to roll up on")
+    if radius is None:
+        return Shaft(outer, leading_edges(keys), 0.0, 0.0, runner=True)
     heights = [surface.points[:, 1].max() for surface in surfaces if surface.kind != "film"]
-    return Shaft(radius, math.radians(number(keys, "bearing", "leading_edge_angle") or 0.0), max(heights, default=0.0),
-                 number(keys, "bearing", "clearance") or 0.0)
+    return Shaft(radius, leading_edges(keys), max(heights, default=0.0), number(keys, "bearing", "clearance") or 0.0)
 
 
 def draw(path, grid=True):
-    """The picture of a case; beside it CASE.3d.vtkhdf is written, where the grid is wanted."""
+    """The picture of a case; beside it CASE.3d.vtkhdf is written, where the grid is wanted and does not lie in space already."""
     case, paths = paths_of(path)
     surfaces = []
     for name, one in paths.items():
@@ -127,7 +143,7 @@ def draw(path, grid=True):
     if not beside.exists():
         stop(f"{beside}: there is no such file; it has the shaft's radius")
     shaft = read_shaft(beside, surfaces)
-    if grid:
+    if grid and not shaft.runner:
         written = path.with_name(case + ".3d.vtkhdf")
         write(written, paths, surfaces, shaft)
         print(f"for ParaView: {written}")
@@ -148,19 +164,20 @@ def draw_surfaces(surfaces, shaft, scene, path):
     for chart, drawing in zip(axes.flat, charts):
         drawing(figure, chart, films if drawing is draw_film else foils, shaft, scene)
         chart.set_axis_off()
-        chart.view_init(elev=ELEVATION, azim=AZIMUTH, vertical_axis="y")
+        chart.view_init(elev=ELEVATION + 20.0*shaft.runner, azim=AZIMUTH, vertical_axis="z" if shaft.runner else "y")
     figure.suptitle(scene.title(path), fontsize=11)
     return figure
 
 
 def draw_film(figure, chart, films, shaft, scene):
     """Pressure on the shaft, and where the load presses it."""
-    values = numpy.concatenate([film.fields["pressure"] for film in films])*1.0e-3
-    norm = colors.Normalize(values.min(), values.max())
-    for film in films:
-        paint(chart, film, film.rolled(shaft), film.fields["pressure"]*1.0e-3, norm, "viridis")
-    bar(figure, chart, norm, "viridis", f"{WORDS['pressure']} [kPa]")
-    words = "film on the shaft"
+    values = [1.0e-3*film.fields["pressure"] for film in films]
+    every = numpy.concatenate(values)
+    look = {"cmap": "viridis", "norm": colors.Normalize(every.min(), every.max())}
+    places = [1.0e3*film.rolled(shaft) for film in films]
+    paint(chart, [patches(*one) for one in zip(films, places, values)], look, shade=False)
+    draw_bar(figure, chart, **look, **BELOW).set_label(f"{WORDS['pressure']} [kPa]", fontsize=9)
+    words = "film on the sectors" if shaft.runner else "film on the shaft"
     if scene.load_angle is not None:
         angle, z = math.radians(scene.load_angle), 0.0
         along = 1.0e3*shaft.radius*numpy.array((math.cos(angle), math.sin(angle), z))
@@ -168,48 +185,55 @@ def draw_film(figure, chart, films, shaft, scene):
         chart.quiver(*(1.1*along), *(0.8*along), color="C3", linewidth=2.0, arrow_length_ratio=0.3)
         words += ", arrows: direction of the load"
     chart.set_title(words, fontsize=10)
-    equal_sides(chart, numpy.concatenate([1.0e3*film.rolled(shaft) for film in films]))
+    equal_sides(chart, numpy.concatenate(places))
 
 
 def draw_foils(figure, chart, foils, shaft, _):
     """Foils coloured by how far they are away from where they rest."""
-    height = max(numpy.ptp(numpy.concatenate([foil.points[:, 1] for foil in foils])) + shaft.clearance, 1.0e-9)
-    taller = max(1.0, round_scale(HEIGHT*shaft.radius/height))
-    away = {foil.name: -foil.fields["displacement"][:, 1]*1.0e6 for foil in foils}
+    across = 2 if shaft.runner else 1
+    height = numpy.ptp(numpy.concatenate([foil.points[:, across] for foil in foils])) + shaft.clearance
+    taller = max(1.0, round_scale(HEIGHT*shaft.radius/height)) if height > 0.0 else 1.0  # a plate has none
+    away = [1.0e6*foil.away(shaft) for foil in foils]
     largest = max(float(numpy.abs(foil.fields["displacement"]).max()) for foil in foils)
     travel = round_scale(TRAVEL*shaft.radius/largest) if largest > 0.0 else 1.0
-    bumps = [foil for foil in foils if foil.kind == "bump_foil"]
-    # A free edge that lifts far towards the shaft would leave the rest without colour.
-    far = max([float(numpy.abs(away[foil.name]).max()) for foil in bumps] + [float(one.max()) for one in away.values()] + [1.0e-12])
-    norm = colors.Normalize(-far, far, clip=True)
-    places = [foil.rolled(shaft, taller, travel) for foil in foils]
-    for foil, place in zip(foils, places):
-        paint(chart, foil, place, away[foil.name], norm, "RdBu_r", cut=foil.kind == "bump_foil" and len(bumps) < len(foils))
-    beyond = any(numpy.abs(one).max() > far for one in away.values())
-    bar(figure, chart, norm, "RdBu_r", "deflection away from the shaft [um]", "both" if beyond else "neither")
-    cut = ", bumps in front cut away" if 0 < len(bumps) < len(foils) else ""
-    chart.set_title(f"foils: displacements x {travel:g}, heights off the shaft x {taller:g}{cut}", fontsize=10)
-    equal_sides(chart, 1.0e3*numpy.concatenate(places))
+    cut = 0 < sum(foil.kind == "bump_foil" for foil in foils) < len(foils) and not shaft.runner
+    places = [1.0e3*foil.rolled(shaft, taller, travel) for foil in foils]
+    look = around_zero(min(one.min() for one in away), max(one.max() for one in away))
+    paint(chart, [patches(*one, cut=cut and one[0].kind == "bump_foil") for one in zip(foils, places, away)], look, shade=True)
+    draw_bar(figure, chart, **look, **BELOW).set_label(f"deflection away from the {'runner' if shaft.runner else 'shaft'} [um]", fontsize=9)
+    chart.set_title(f"foils: displacements x {travel:g}" + (f", heights x {taller:g}" if height > 0.0 else "")
+                    + (", bumps in front cut away" if cut else ""), fontsize=10)
+    equal_sides(chart, numpy.concatenate(places))
 
 
-def paint(chart, surface, places, values, norm, colour, cut=False):
-    """A surface in colours; cut: without its half at z > 0."""
+def patches(surface, places, values, cut=False):
+    """Quadrilaterals of a surface, none of them across a gap between pads, and their values; cut: without its half at z > 0."""
+    corners, means = [], []
     for sheet in surface.sheets():
         if cut:
             sheet = sheet[:, surface.points[sheet[0], 2] <= ROUND_OFF]
-        x, y, z = (1.0e3*places[sheet, axis] for axis in range(3))
-        inside = values[sheet]
-        inside = 0.25*(inside[1:, 1:] + inside[:-1, 1:] + inside[1:, :-1] + inside[:-1, :-1])
-        stride = max(1, len(sheet)//LINES)
-        chart.plot_surface(x, y, z, facecolors=pyplot.get_cmap(colour)(norm(inside)), rstride=stride,
-                           cstride=max(1, sheet.shape[1]//40), linewidth=0.0, antialiased=False, shade=surface.kind != "film",
-                           lightsource=LIGHT)
+        rows, columns = (strided(many, most) for many, most in zip(sheet.shape, (LINES, ROWS)))
+        sheet = sheet[numpy.ix_(rows, columns)]
+        four = numpy.stack((sheet[:-1, :-1], sheet[1:, :-1], sheet[1:, 1:], sheet[:-1, 1:]), axis=-1).reshape(-1, 4)
+        corners.append(places[four])
+        means.append(values[four].mean(axis=1))
+    return numpy.concatenate(corners), numpy.concatenate(means)
 
 
-def bar(figure, chart, norm, colour, words, extend="neither"):
-    """A colour bar below a chart."""
-    figure.colorbar(pyplot.cm.ScalarMappable(norm, colour), ax=chart, location="bottom", shrink=0.6, pad=0.0,
-                    ticks=round_numbers(6), extend=extend).set_label(words, fontsize=9)
+def strided(many, most):
+    """Numbers from 0 to the last, no more than so many or some more."""
+    return numpy.unique(numpy.append(numpy.arange(0, many, max(1, many//most)), many - 1))
+
+
+def paint(chart, surfaces, look, shade):
+    """All surfaces in colours of one scale, as one collection: what is nearer covers what is behind it."""
+    corners, values = (numpy.concatenate(part) for part in zip(*surfaces))
+    shades = pyplot.get_cmap(look["cmap"])(look["norm"](values))
+    if shade:
+        normal = numpy.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        normal /= numpy.maximum(numpy.linalg.norm(normal, axis=1, keepdims=True), 1.0e-300)
+        shades[:, :3] *= (SHADOW + (1.0 - SHADOW)*numpy.abs(normal @ LIGHT))[:, None]
+    chart.add_collection3d(Poly3DCollection(corners, facecolors=shades, linewidths=0.0, antialiaseds=False))
 
 
 def equal_sides(chart, places):

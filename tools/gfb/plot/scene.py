@@ -4,7 +4,6 @@ import dataclasses
 import math
 
 import numpy
-from matplotlib import ticker
 
 from gfb import steps
 from gfb.plot.strip import used_keys
@@ -18,6 +17,7 @@ WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle":
          "minimum_pressure": "smallest pressure, absolute", "axial_gap": "axial gap", "axial_force": "axial force",
          "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
 NEAR = 1.0e-4  # of the film's force: a load that differs less is it
+MOST_PADS = 1000  # more are none of gfb
 SAME = 1.0e-9  # of the largest value: edges that differ less are one line
 
 
@@ -28,7 +28,7 @@ class Scene:
     words: str = ""           # load, speed and model
     load_angle: float = None  # theta at which the load presses the shaft [deg]
     radius: float = None      # of the shaft [m]
-    begin: float = 0.0        # theta where the pad begins [deg]
+    begins: tuple = (0.0,)    # theta where each pad begins [deg]
     frequencies: dict = dataclasses.field(default_factory=dict)  # mode_1: natural frequency [Hz]
 
     def title(self, path):
@@ -59,7 +59,7 @@ def read_scene(file):
     if not {("bearing", "radius"), ("bearing", "outer_radius")} & set(keys):  # a strip
         return scene
     scene.radius = number(keys, "bearing", "radius")
-    scene.begin = math.degrees(number(keys, "bearing", "leading_edge_angle") or 0.0)
+    scene.begins = tuple(map(math.degrees, leading_edges(keys)))
     words, history = [], file["history"]
     if "force_x" in summary and "force_y" in summary:
         force = complex(summary["force_x"][()], summary["force_y"][()])
@@ -80,6 +80,28 @@ def carries_load(keys, history, force):
     given = numpy.hypot(*map(float, keys["operation", "load"][0].split(","))) if ("operation", "load") in keys else numpy.nan
     load = history["load"][-1] if "load" in history else given
     return abs(load - force) <= NEAR*force
+
+
+def leading_edges(keys):
+    """theta where each pad of an echo begins [rad]."""
+    count = int(number(keys, "pads", "count") or 1)
+    if not 0 < count <= MOST_PADS:
+        raise ValueError(f"scene/used: {count} pads")
+    first = number(keys, "pads", "first_leading_edge")
+    if first is None:
+        first = number(keys, "bearing", "leading_edge_angle") or 0.0
+    return tuple(first + 2.0*math.pi*pad/count for pad in range(count))
+
+
+def pad_of(name):
+    """The pad of a foil that is called top_foil_2 or bump_foil_2; without a number the only one."""
+    ending = name.rpartition("_")[2]
+    return int(ending) if ending.isdigit() else 1
+
+
+def of_pad(values, pad):
+    """What belongs to a pad; pads are counted on through the bearings of a rotor."""
+    return values[(pad - 1) % len(values)]
 
 
 def number(keys, group, key):
@@ -103,25 +125,21 @@ def step_words(file, step):
 
 # --- colours and lines ---
 
-def round_numbers(count):
-    """Places of about so many ticks or bands."""
-    return ticker.MaxNLocator(count, steps=[1, 2, 5, 10])
-
-
 def draw_edges(chart, along, values, z):
     """Lines along both edges, or one where they are the same; z in mm."""
-    if numpy.abs(values[:, 0] - values[:, -1]).max() <= SAME*numpy.abs(values).max() and abs(z[0] + z[-1]) <= SAME*abs(z[-1]):
+    if numpy.nanmax(numpy.abs(values[:, 0] - values[:, -1])) <= SAME*numpy.nanmax(numpy.abs(values)) and abs(z[0] + z[-1]) <= SAME*abs(z[-1]):
         chart.plot(along, values[:, -1], "--", label=f"edges, z = +-{z[-1]:.4g} mm")
         return
     for edge, style in ((-1, "--"), (0, ":")):
         chart.plot(along, values[:, edge], style, label=f"edge, z = {z[edge]:.4g} mm")
 
 
-def theta_above(chart, scene):
-    """A second axis, theta, above that of x [mm] of a bearing's foils."""
+def theta_above(chart, scene, pad=1):
+    """A second axis, theta, above that of x [mm] of the foils of a pad."""
     if scene.radius is None:
         return
-    per_mm = math.degrees(1.0e-3/scene.radius)
-    axis = chart.secondary_xaxis("top", functions=(lambda x: scene.begin + x*per_mm, lambda theta: (theta - scene.begin)/per_mm))
+    begin, per_mm = of_pad(scene.begins, pad), math.degrees(1.0e-3/scene.radius)
+    axis = chart.secondary_xaxis("top", functions=(lambda x: begin + x*per_mm, lambda theta: (theta - begin)/per_mm))
     axis.set_xlabel("theta [deg]", fontsize=9)
-    axis.set_xticks(numpy.arange(60.0*math.ceil(scene.begin/60.0), scene.begin + 361.0, 60.0))
+    apart = 60.0 if len(scene.begins) == 1 else 20.0
+    axis.set_xticks(numpy.arange(apart*math.ceil(begin/apart), begin + 361.0, apart))

@@ -4,8 +4,9 @@ import os
 import re
 
 import numpy
-from matplotlib import colors, patches, pyplot
+from matplotlib import pyplot
 
+from gfb.plot import contact
 from gfb.results import text_of
 from gfb.tool import stop
 
@@ -13,14 +14,9 @@ MICRO = 1.0e6
 MILLI = 1.0e3
 FORCE = "history/axial_force"  # of thrust bearings
 KINDS = ("bumps", "loop", "contact")
-STATES = ("open", "sticks", "slips")
-STATE_COLOURS = ("0.85", "C0", "C1")
-SURFACES = {"top": "crest lines on the top foil or upper plate", "sleeve": "corner lines on the sleeve"}
 STYLES = ("-", "--", "-.", ":")
 MOST_MARKED = 30   # rows of a history whose points are marked
 MOST_LABELLED = 24 # bars that carry their value
-MOST_BESIDE = 40   # contact lines of both surfaces that stand beside each other
-MOST_NUMBERED = 30 # contact lines of a map that all bear their number
 SHORTEST = 5       # letters of a common name that says something
 LEAST = 1.0e-12    # of the largest force: a load below it is none
 
@@ -32,13 +28,13 @@ def is_strip(file):
 
 def is_bearing(file):
     """Whether a case file is of a bearing on foils with contacts."""
-    return any(f"history/{name}" in file for name in ("eccentricity_x", "axial_gap")) and any(f"contact/{name}/state" in file for name in SURFACES)
+    return any(f"history/{name}" in file for name in ("eccentricity_x", "axial_gap")) and any(f"contact/{name}/state" in file for name in contact.SURFACES)
 
 
 def draw(paths, files, kind, steps):
     """The picture of one or several strips, or of a bearing's contacts."""
     if len(files) == 1 and kind in (None, "contact") and is_bearing(files[0]):
-        return draw_contact(paths[0], files[0], steps)
+        return draw_contacts(paths[0], files[0], steps)
     for path, file in zip(paths, files):
         if not is_strip(file):
             stop(f"{path}: not a strip under loads, or no load step was done")
@@ -49,7 +45,7 @@ def draw(paths, files, kind, steps):
     if kind == "contact":
         if len(files) > 1:
             stop("contact states are drawn of one file at a time")
-        return draw_contact(paths[0], files[0], steps)
+        return draw_contacts(paths[0], files[0], steps)
     if kind == "bumps":
         if len(steps) > 1:
             stop("deflections are drawn of one step at a time")
@@ -221,81 +217,9 @@ def draw_arrows(chart, way, height, force, colour):
                            arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 13.0, "shrinkA": 0.0, "shrinkB": 0.0})
 
 
-# --- contact states ---
+# --- contacts ---
 
-def draw_contact(path, file, steps):
-    """Open, stick and slip along the contact lines; a row of maps a step."""
-    surfaces = [name for name in SURFACES if f"contact/{name}/state" in file]
-    if not surfaces:
-        stop(f"{path}: no contacts in it")
+def draw_contacts(path, file, steps):
+    """States and forces of the contacts, of each step asked for or of the full load."""
     rows = [row_of(path, file, step) for step in steps or [None]]
-    lines = {name: line_table(file[f"contact/{name}"]) for name in surfaces}
-    wide = [max(4, len(lines[name][0])) for name in surfaces]
-    figure, axes = contact_charts(len(rows), wide)
-    for row, charts in zip(rows, axes):
-        for chart, name in zip(charts, surfaces):
-            numbers, z, node = lines[name]
-            draw_states(chart, numbers, z, file[f"contact/{name}/state"][row][node])
-            chart.set_title(f"{words_of(file, row)}: {name}", fontsize=9)
-    stacked = sum(wide) > MOST_BESIDE
-    for charts in axes:
-        for chart in charts if stacked else charts[:1]:
-            chart.set_ylabel("radius [mm]" if "history/axial_gap" in file else "z [mm]")
-    for chart, name in zip(axes[-1], surfaces):
-        chart.set_xlabel(f"number along x of the{' ' if stacked else chr(10)}{SURFACES[name]}", fontsize=9)
-    figure.legend(handles=[patches.Patch(color=colour, label=word) for word, colour in zip(STATES, STATE_COLOURS)],
-                  loc="upper right", ncols=3, fontsize=8)
-    figure.suptitle(f"{name_of(path)}: contact states", fontsize=11, x=0.01, ha="left")
-    return figure
-
-
-def contact_charts(rows, wide):
-    """A figure and its charts, a list a row: the surfaces side by side, or below each other where there is no room."""
-    if sum(wide) > MOST_BESIDE:
-        figure, axes = pyplot.subplots(rows*len(wide), 1, squeeze=False, layout="constrained",
-                                       figsize=(11.0, 2.2*rows*len(wide) + 0.7), sharey=True)
-        return figure, axes.reshape(rows, len(wide))
-    return pyplot.subplots(rows, len(wide), squeeze=False, layout="constrained", sharey=True, sharex="col",
-                           figsize=(max(6.5, 2.4 + 0.38*sum(wide)), 2.2*rows + 1.1),
-                           gridspec_kw={"width_ratios": wide})
-
-
-def draw_states(chart, numbers, z, states):
-    """A column a contact line."""
-    palette = colors.ListedColormap(STATE_COLOURS)
-    for i, column in enumerate(states):
-        chart.pcolormesh([i + 0.6, i + 1.4], edges(MILLI*z), column[:, None], cmap=palette, vmin=-0.5, vmax=2.5)
-    places = numpy.arange(1, len(numbers) + 1)[::1 + len(numbers)//(MOST_NUMBERED + 1)]
-    chart.set(xticks=places, xlim=(0.4, len(numbers) + 0.6))
-    chart.set_xticklabels([numbers[place - 1] for place in places])
-
-
-def line_table(group):
-    """Numbers of the contact lines, z over the whole width [m], and the node of every line and z.
-
-    Where half the width was solved, the other half is its mirror image. A line that is held has no contacts;
-    its entries bear no number.
-    """
-    line = numpy.rint(group["line"][...]).astype(int)
-    numbers = sorted(set(line) - {0})
-    if not numbers:
-        stop("no contact line bears a number")
-    position = group["position_z"][...]
-    nodes = []
-    for number in numbers:
-        own = numpy.flatnonzero(line == number)
-        nodes.append(own[numpy.argsort(position[own])])
-    if len({len(own) for own in nodes}) > 1:
-        stop("contact lines of different lengths cannot be drawn")
-    node = numpy.array(nodes)
-    z = position[node[0]]
-    if z[0] >= 0.0 and len(z) > 1 and "axial_gap" not in group.file.get("history", ()):
-        z = numpy.concatenate((-z[:0:-1], z))
-        node = numpy.concatenate((node[:, :0:-1], node), axis=1)
-    return numbers, z, node
-
-
-def edges(z):
-    """Borders halfway between nodes."""
-    middle = 0.5*(z[1:] + z[:-1])
-    return numpy.concatenate((z[:1], middle, z[-1:]))
+    return contact.draw(path, file, rows, [words_of(file, row) for row in rows], name_of(path), used_keys(file))

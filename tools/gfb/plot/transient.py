@@ -6,7 +6,8 @@ import numpy
 from matplotlib import colors, patches, pyplot
 
 from gfb.plot.clearance import crests_of, draw_limit
-from gfb.plot.scene import case_name, number, round_numbers
+from gfb.plot.colours import round_numbers
+from gfb.plot.scene import case_name, number
 from gfb.plot.strip import used_keys
 from gfb.tool import stop
 
