@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A page of tools/report in Chromium without a window: no complaint, every picture there, nothing wider than the page."""
 
+import html
 import os
 import pathlib
 import re
@@ -13,7 +14,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
-from report_test import SMALL  # noqa: E402
+from report_test import SMALL, SOUGHT  # noqa: E402
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 WIDTH = 1300
@@ -22,6 +23,13 @@ PROBE = """<script>addEventListener("load", () => {
   const pictures = Array.from(document.images, (image) => image.naturalWidth);
   document.body.dataset.seen = [document.documentElement.scrollWidth, pictures.length, Math.min(...pictures)].join(" ");
 });</script></body>"""
+
+NARROW = 420  # less than a window of Chromium's can be: a frame in one
+FRAME = """<body><iframe width="{width}" height="900" frameborder="0" srcdoc="{page}"></iframe><script>addEventListener("load", () => {{
+  const inside = document.querySelector("iframe").contentDocument;
+  const bars = Array.from(inside.querySelectorAll(".bars i"), (bar) => bar.getBoundingClientRect().width);
+  document.body.dataset.seen = [inside.documentElement.scrollWidth, ...bars].join(" ");
+}});</script></body>"""
 
 
 @unittest.skipUnless(BROWSER, "Chromium is not installed")
@@ -56,6 +64,22 @@ class BrowserTest(unittest.TestCase):
             shot = folder/"page.png"
             self.browse(folder, page, f"--screenshot={shot}")
             self.assertGreater(shot.stat().st_size, 20000, "an empty page")
+
+    def test_bars_of_sensitivities_on_a_narrow_screen(self):
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+            folder = pathlib.Path(place)
+            gfb.run(gfb.Case(SMALL | {"sensitivity": SOUGHT}), folder, "first")
+            page = folder/"page.html"
+            subprocess.run([sys.executable, ROOT/"tools/report", folder/"first", "-o", page], check=True, capture_output=True)
+            page.write_text(FRAME.format(width=NARROW, page=html.escape(page.read_text(encoding="utf-8"))), encoding="utf-8")
+            shown, _ = self.browse(folder, page, "--dump-dom")
+            seen = re.search(r'data-seen="(.*?)"', shown)
+            self.assertIsNotNone(seen, "the page did not load")
+            wide, *bars = map(float, seen[1].split())
+            self.assertLessEqual(wide, NARROW)
+            self.assertEqual(len(bars), 3)
+            self.assertEqual(bars, sorted(bars, reverse=True))
+            self.assertGreater(bars[0], 50.0)  # long enough to be compared
 
     def test_a_complaint_is_seen(self):
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:

@@ -13,6 +13,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb.report.glance import glance, sketch  # noqa: E402
+from gfb.report.sensitivities import sensitivities  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 
 VOID = {"meta", "link", "img", "br"}
@@ -23,6 +24,7 @@ SMALL = {"scene": {"title": "small & <rigid>", "analysis": "equilibrium"},
          "model": {"foil": "rigid"}, "mesh": {"circumferential_elements": 48, "axial_elements": 8}}
 
 
+SOUGHT = {"quantity": "minimum_gap", "parameters": ("gas%viscosity", "bearing%clearance", "operation%load")}
 HEAT = {"shaft": "given", "shaft_temperature": 320.0, "sleeve_conductance": 1.0, "top_foil": "given", "top_foil_temperature": 310.0}
 
 
@@ -60,7 +62,7 @@ class ReportTest(unittest.TestCase):
         cls.addClassCleanup(place.cleanup)
         cls.folder = pathlib.Path(place.name)
         case = gfb.Case(SMALL)
-        cls.first = gfb.run(gfb.Case(SMALL | {"thermal": HEAT}), cls.folder, "first")
+        cls.first = gfb.run(gfb.Case(SMALL | {"thermal": HEAT, "sensitivity": SOUGHT}), cls.folder, "first")
         case["accuracy%quantity"], case["accuracy%target"] = "minimum_gap", 0.05
         gfb.run(case, cls.folder, "second")
         case = gfb.Case(SMALL)
@@ -103,6 +105,45 @@ class ReportTest(unittest.TestCase):
         self.assertIn("No answer was found", words)
         self.assertRegex(words, r"Last state reached load , .*thinnest film")
         self.assertRegex(words, r"bearing%clearance 2\.5e-05")
+
+    def test_the_most_influential_key_stands_first(self):
+        found, parts = self.first, {"gas: viscosity": ("gas_viscosity", SMALL["gas"]["viscosity"]), "operation: load": ("operation_load", 20.0),
+                                    "bearing: clearance": ("bearing_clearance", SMALL["bearing"]["clearance"])}
+        per_cent = {words: found[f"d_minimum_gap_d_{name}"]*value/found["minimum_gap"] for words, (name, value) in parts.items()}
+        order = sorted(per_cent, key=lambda words: -abs(per_cent[words]))
+        self.assertLess(per_cent["operation: load"], 0.0)  # and a more viscous gas carries higher
+        self.assertGreater(per_cent["gas: viscosity"], 0.0)
+        _, words = self.page(self.folder/"first.h5")
+        told = words.partition("What it depends on most")[2].partition("All results by name")[0]
+        self.assertIn("what 1 % more of each key does", told)
+        self.assertEqual(sorted(parts, key=told.index), order)
+        for name, share in per_cent.items():
+            self.assertRegex(told, rf"{name} [+-]\S+ um {re.escape(f'{share:+.2g}')} %")
+
+    def test_bars_of_tolerances(self):
+        """By tolerances or by 1 %, with what a sweep and the load's magnitude make of a key; the value of a list has that of the list."""
+        def result(name, value, unit="m", meaning=""):
+            return {name: {"value": value, "unit": unit, "meaning": meaning}}
+
+        def derivative(key, value):
+            return result(f"d_{key}", value, "1", f"derivative of minimum_gap by {key}")
+
+        case = gfb.Case(SMALL | {"bump_foil": {"crest_gap": (0.0, 0.0)}})
+        summary = result("minimum_gap", 5.0e-6) | derivative("bearing%clearance", -0.1) | derivative("operation%load", -1.0e-8) \
+            | derivative("bump_foil%crest_gap(2)", 0.2) | result("standard_deviation_minimum_gap", 3.0e-7)
+        (one,) = sensitivities(summary, case)
+        self.assertEqual([(bar["key"], bar["effect"], bar["grows"]) for bar in one["bars"]],
+                         [("bearing%clearance", "-0.02 um", False), ("operation%load", "-0.002 um", False)])
+        self.assertEqual((one["silent"], one["left_out"], one["by_tolerance"]), (1, 0, False))
+        (one,) = sensitivities(summary, case, {"operation%load": 400.0})
+        self.assertEqual([bar["effect"] for bar in one["bars"]], ["-0.04 um", "-0.02 um"])
+        case["sensitivity%parameters"] = "bearing%clearance, operation%load, bump_foil%crest_gap(:)"
+        case["sensitivity%tolerances"] = (1.0e-6, 2.0, 1.0e-6)
+        (one,) = sensitivities(summary, case)
+        self.assertEqual([(bar["key"], bar["effect"], bar["length"]) for bar in one["bars"]],
+                         [("bump_foil%crest_gap(2)", "+0.2 um", 100.0), ("bearing%clearance", "-0.1 um", 50.0), ("operation%load", "-0.02 um", 10.0)])
+        self.assertEqual((one["spread"], one["silent"]), ("0.3 um", 0))
+        self.assertEqual(sensitivities(result("minimum_gap", 5.0e-6), case), [])
 
     def test_margins(self):
         """What is asked first, against what the case says: better and worse than that."""

@@ -11,6 +11,7 @@ import argparse
 import base64
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,7 @@ import jinja2
 from gfb.case import Case, program
 from gfb.heat import HEATED, balance
 from gfb.report.glance import glance, sketch
+from gfb.report.sensitivities import sensitivities
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
 from gfb.tool import draw_into_files, say, stop
 
@@ -27,7 +29,7 @@ PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).
                           trim_blocks=True, lstrip_blocks=True)
 ENDINGS = (".h5", ".summary")
 SURFACES = {"film": "the film", "top_foil": "the top foil", "top_foil_1": "the top foil of pad 1", "bump_foil": "the bump foil"}
-SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency"}
+SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency", "campbell": "the rotor's modes over the speed"}
 SECONDS = 300     # no picture takes that long
 MOST_ROWS = 400   # of a table of points
 
@@ -80,17 +82,28 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         history = {name: table[name][:MOST_ROWS] for name in columns(table, summary)}
         heads = [(name, text_of(table[name].attrs["unit"])) for name in history]
         points = len(table[heads[0][0]]) if heads else 0
+        swept = {name: float(data[points - 1]) for name, data in table.items()} if points else {}
         case_file = text_of(file["scene/case_file"][()])
         used = Case.parse(text_of(file["scene/used"][()]))
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
         shows = [name for name in ("contact", "dynamics", "transient") if name in file] + ["heat"]*(HEATED in table) + ["ring"]*("axial_gap" in table)
+        shows += ["campbell"]*("speed_rpm" in table and "dynamics/mode_frequency" in file)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
     drawings = pictures_of(stem, points, shows, curve) if pictures else []
     return {"name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
             "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
-            "glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
+            "glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary),
+            "sensitivities": sensitivities(summary, used, swept_keys(used, swept)), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
             "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
+
+
+def swept_keys(case, last):
+    """{key: value} of what a sweep changes, at its last point."""
+    parameter = case["sweep%parameter"] if "sweep%parameter" in case else ""
+    if "%" in parameter:
+        return {key: last["key_value"] for key in re.split(r"[,\s]+", parameter) if "key_value" in last}
+    return {f"operation%{parameter}": last[parameter]} if parameter in last else {}
 
 
 def in_order(stem, group):
@@ -133,9 +146,9 @@ def needs_of(case_file, gfb):
 def pictures_of(stem, points, shows, curve=False):
     """Title and picture of everything that tools/plot draws of a result, or of its points or time alone; what it cannot draw is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
+    wanted.insert(1, ("film and foils in space, heights and displacements drawn larger", [f"{stem}.film.vtkhdf", "--3d", "--picture-only"]))
     if "ring" not in shows:
-        wanted[1:1] = [("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]),
-                       ("film and foils around the shaft, heights and displacements drawn larger", [f"{stem}.film.vtkhdf", "--3d", "--picture-only"])]
+        wanted.insert(1, ("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]))
     if "heat" in shows:
         wanted += [("temperatures of film and top foil, and heat into the shaft", [f"{stem}.film.vtkhdf", "--show", "heat"]),
                    ("heat along the points" if points > 1 else "where the heat goes, and how hot it is", [f"{stem}.h5", "--show", "heat"])]
