@@ -174,6 +174,26 @@ class ShaftTest(unittest.TestCase):
         with unittest.mock.patch.object(animation, "FRAMES", 4):
             self.assertEqual(call(self.folder, "a.h5", "--animate"), (0, "drawn: a.h5.gif\n"))
 
+    def test_the_load_and_the_thinnest_film_are_seen(self):
+        """An arrow along the load; of the moving picture a ring beside the clearance in the direction of the shaft's centre."""
+        path = shaft_file(self.folder/"a.h5")
+        with h5py.File(path, "r+") as file:
+            del file["scene/used"]
+            file["scene/used"] = ECHO + "&operation\n  load = -30.0, 40.0 ! [N]\n/\n"
+        chart = self.chart(path, "orbit")[0]
+        (arrow,) = chart.texts
+        numpy.testing.assert_allclose(numpy.array(arrow.xy)/numpy.hypot(*arrow.xy), (-0.6, 0.8))
+        self.assertIn("load on the shaft", [text.get_text() for text in chart.get_legend().get_texts()])
+        with h5py.File(path, "r") as file:
+            figure, frame, frames, _ = animation.of_orbit(path, file)
+            frame(frames - 1)
+            e = numpy.array([file[f"transient/eccentricity_{axis}"][-1] for axis in "xy"])
+        (ring,) = [line for line in figure.axes[0].lines if str(line.get_label()).startswith("thinnest film")]
+        place = numpy.concatenate(ring.get_data())
+        numpy.testing.assert_allclose(place/numpy.hypot(*place), -e/numpy.hypot(*e), atol=1e-2)  # an aligned ring is thinnest there
+        self.assertAlmostEqual(numpy.hypot(*place), animation.BESIDE*1.0e6*CLEARANCE)
+        self.assertIn(f"film {1.0e6*(CLEARANCE - numpy.hypot(*e)):.3g} um", figure._suptitle.get_text())
+
     def test_calls(self):
         shaft_file(self.folder/"a.h5", instants=3001)
         shaft_file(self.folder/"short.h5", instants=30, seconds=1.0e-3)
@@ -274,6 +294,10 @@ class ClearanceTest(unittest.TestCase):
         numpy.testing.assert_allclose(bearing.limit(angle), touches, rtol=1.5*step**2)
         self.assertLess(bearing.limit(angle).min(), 0.75*CLEARANCE)
         self.assertTrue((bearing.limit(angle) <= touches*(1.0 + 1e-9)).all())
+        with h5py.File(self.folder/"pads.film.vtkhdf", "r") as film:  # its gap without the foils' deflection is that of the shaft at -e
+            rigid = film["VTKHDF/PointData/gap"][...] - film["VTKHDF/PointData/deflection"][...]
+        self.assertAlmostEqual(bearing.thinnest(-file["summary/eccentricity_x"][()], -file["summary/eccentricity_y"][()]),
+                               theta[numpy.argmin(rigid)], delta=step)
 
     def test_pads_as_they_may_be_given(self):
         def bearing(pads="", edge=0.0, condition="slit"):

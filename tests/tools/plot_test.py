@@ -21,6 +21,7 @@ os.environ["MPLBACKEND"] = "Agg"
 sys.path.insert(0, str(PROJECT/"tools"))
 
 from gfb.plot import contact as plot_contact  # noqa: E402 (found only now)
+from gfb.plot import dynamics as plot_dynamics  # noqa: E402
 from gfb.plot import film as plot_film  # noqa: E402
 from gfb.plot import foil as plot_foil  # noqa: E402
 from gfb.plot import heat as plot_heat  # noqa: E402
@@ -404,6 +405,42 @@ class RotorTest(unittest.TestCase):
         self.assertEqual(len(shown), 1)
         numpy.testing.assert_allclose(shown[0].get_ydata(), (3.0/numpy.hypot(3.0, 40.0), -6.0/numpy.hypot(6.0, 80.0)))
         self.assertEqual(above.get_ylabel(), "frequency [Hz]")
+
+    def test_branches_follow_the_modes_whatever_their_order(self):
+        """Two modes change places in the list, one is there at one speed alone, one is the foil's."""
+        rows = [[(-3.0, 40.0, 0.9), (-5.0, 90.0, 0.9), (-0.1, 60.0, 1.0e-4)], [(-2.0, 92.0, 0.9), (-4.0, 45.0, 0.9), (-0.1, 61.0, 1.0e-4)],
+                [(-1.0, 94.0, 0.9), (-6.0, 50.0, 0.9), (-40.0, 300.0, 0.9)]]
+        path = self.sweep("a.h5", "speed_rpm", (3000.0, 4000.0, 5000.0), "load = -10.0, 0.0", rows)
+        with h5py.File(path, "r+") as file:
+            file["dynamics/mode_foil_share"] = numpy.where(file["dynamics/mode_shaft_share"][...] < 0.5, 0.9, 0.01)
+            above, _ = plot_rotor.draw([path], [file], "campbell").axes
+        ways = [tuple(2.0*numpy.pi*line.get_ydata()) for line in above.lines if line.get_label().startswith("_") and line.get_marker() == "None"]
+        self.assertEqual([numpy.round(way, 9).tolist() for way in ways if len(way) == 3], [[40.0, 45.0, 50.0], [90.0, 92.0, 94.0]])
+        (foil,) = [line for line in above.lines if line.get_label() == "of the foil"]
+        numpy.testing.assert_allclose(foil.get_xydata(), [(3000.0, 60.0/(2.0*numpy.pi)), (4000.0, 61.0/(2.0*numpy.pi))])
+        (speed,) = [line for line in above.lines if line.get_label() == "running speed"]
+        numpy.testing.assert_allclose(speed.get_ydata(), speed.get_xdata()/60.0)  # Hz
+
+    def test_coefficients_next_to_a_foil_mode_are_not_joined(self):
+        """A peak of 2 rad/s between points 100 rad/s apart is not seen: no line leads past it; one of 200 rad/s is."""
+        path = self.folder/"a.h5"
+        for growth, known in ((-1.0, False), (-100.0, True)):
+            with h5py.File(path, "w") as file:
+                for name, value in {"frequency": [100.0, 200.0, 300.0], "stiffness": numpy.arange(48.0).reshape(3, 4, 4)*1.0e6,
+                                    "damping": numpy.ones((3, 4, 4)), "mode_frequency": [250.0, 150.0], "mode_shaft_share": [1.0e-4, 0.9],
+                                    "mode_foil_share": [0.9, 1.0e-3], "mode_kind": [1.0, 1.0], "mode_sense": [1.0, 1.0],
+                                    "mode_damping_ratio": [-growth/numpy.hypot(growth, 250.0), 0.1]}.items():
+                    file[f"dynamics/{name}"] = value
+                file["scene/used"] = "&operation\n  speed_rpm = 2000.0 ! [rpm]\n/\n"
+                file["history/whirl_ratio"] = [0.5]
+                chart = plot_dynamics.draw(path, file).axes[0]
+            expected = [0.0, 16.0, 32.0] if known else [0.0, 16.0, numpy.nan, 32.0]
+            numpy.testing.assert_array_equal(chart.lines[0].get_ydata(), expected)
+            marks = {line.get_label(): line.get_xdata()[0] for line in chart.lines}
+            self.assertAlmostEqual(marks["mode of the foil"], 250.0)
+            self.assertAlmostEqual(marks["running speed"], 2000.0*numpy.pi/30.0)
+            self.assertAlmostEqual(marks["whirl of the critical mass"], 1000.0*numpy.pi/30.0)
+            self.assertEqual(bool(chart.patches), not known)
 
     def test_members_of_a_sample_are_counted_and_summed_up(self):
         path, gaps = self.folder/"sample.h5", numpy.array([4.0e-6, numpy.nan, 2.0e-6, 3.0e-6])

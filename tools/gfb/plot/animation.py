@@ -4,7 +4,7 @@ import numpy
 from matplotlib import animation, pyplot
 
 from gfb import steps
-from gfb.plot import transient
+from gfb.plot import clearance, transient
 from gfb.plot.colours import draw_bar, look_of
 from gfb.plot.film import WORDS, label_theta, read_film
 from gfb.plot.scene import case_name, step_words
@@ -17,6 +17,7 @@ FRAMES = 100   # at most
 PACE = 5.0     # frames a second, of steps
 FAST = 20.0    # of an orbit
 DOTS = 80      # a GIF's dots an inch
+BESIDE = 1.07  # of the clearance: where the ring of the thinnest film stands, beside the shaft's centre
 
 
 def draw(path, file, picture):
@@ -91,19 +92,25 @@ def of_film(path, file):
 # --- orbit ---
 
 def of_orbit(path, file):
-    """The shaft's centre on its way, with a tail of two turns; a small orbit beside it enlarged."""
+    """The shaft's centre on its way, with a tail of two turns, and where it is nearest to the pads; a small orbit beside it enlarged."""
     history, keys = transient.read(file)
     many = 1 if transient.enlarged(history, keys) is None else 2
-    figure, axes = pyplot.subplots(1, many, figsize=(6.0*many, 6.2), squeeze=False, layout="constrained")
+    figure, axes = pyplot.subplots(1, many, figsize=(6.0*many, 6.4), squeeze=False, layout="constrained")
     transient.draw_orbits(axes[0], history, keys)
-    shafts = transient.journals(history)
-    axes[0, 0].get_legend().remove()
+    shafts, bearing = transient.journals(history), clearance.bearing_of(keys)
     moving = []
     for chart in axes[0]:
         for line in chart.get_lines()[-4*len(shafts):]:
             line.set_alpha(0.3)
+            line.set_label("")
         for _, colour, place in shafts:
-            moving.append((chart.plot([], [], color=colour, linewidth=1.5)[0], chart.plot([], [], "o", color="C3", markersize=8)[0], *place))
+            tail = chart.plot([], [], color=colour, linewidth=1.5)[0]
+            spot = chart.plot([], [], "o", color="C3", markersize=8, label="shaft's centre" if colour == "C0" else None)[0]
+            moving.append((tail, spot, *place))
+    nearest = [(axes[0, 0].plot([], [], "o", color="w", markeredgecolor="k", markersize=8, zorder=6,
+                                label=("thinnest film, foils at rest" + " and no &bore"*bearing.bored) if colour == "C0" else None)[0], *place)
+               for _, colour, place in shafts if bearing is not None]
+    axes[0, 0].legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
     numbers = chosen(len(history["turns"]))
     title = figure.suptitle(" ", fontsize=11)
 
@@ -113,7 +120,11 @@ def of_orbit(path, file):
         for tail, spot, x, y in moving:
             tail.set_data(x[shown], y[shown])
             spot.set_data(x[end:end + 1], y[end:end + 1])
+        for ring, x, y in nearest:
+            theta = numpy.array([bearing.thinnest(x[end]/clearance.MICRO, y[end]/clearance.MICRO)])
+            far = clearance.MICRO*numpy.minimum(bearing.limit(theta), clearance.OPEN*bearing.clearance)
+            ring.set_data(BESIDE*far*numpy.cos(theta), BESIDE*far*numpy.sin(theta))
         title.set_text(f"{case_name(path)}: turn {history['turns'][end]:.1f}, {history['time'][end]:.4g} s, "
-                       f"{history['speed'][end]*30.0/numpy.pi:,.0f} rpm")
+                       f"{history['speed'][end]*30.0/numpy.pi:,.0f} rpm, film {1.0e6*history['minimum_gap'][end]:.3g} um")
 
     return figure, frame, len(numbers), FAST

@@ -11,6 +11,7 @@ MICRO = 1.0e6
 TURN = 2.0*math.pi
 DIRECTIONS = 1441  # of the limit that is drawn
 OPEN = 1.5         # of the clearance: where nothing is nearer the limit is not drawn
+LOAD = 0.4         # of the clearance: length of the load's arrow
 SAME = 1.0e-9      # angles and lengths that differ less are one
 
 
@@ -46,6 +47,14 @@ class Bearing:
                 gap = self.clearance - self.shift*math.cos(end - narrow)
                 nearest = numpy.minimum(nearest, numpy.where(across > SAME, gap/numpy.maximum(across, SAME), numpy.inf))
         return nearest
+
+
+    def thinnest(self, x, y):
+        """theta where the shaft is nearest to the pads at rest [rad], its centre at (x, y) [m]."""
+        angle = numpy.concatenate([begin + numpy.linspace(0.0, self.arc, DIRECTIONS) for begin in self.begins])
+        narrow = numpy.repeat(self.narrowest, DIRECTIONS)
+        gap = self.clearance - self.shift*numpy.cos(angle - narrow) - x*numpy.cos(angle) - y*numpy.sin(angle)
+        return float(angle[numpy.argmin(gap)])
 
 
 def bearing_of(keys):
@@ -105,6 +114,17 @@ def draw_limit(chart, keys, crests):
     if len(crests):
         mark(chart, bearing, crests, (1.0, 1.05), {"color": "0.4", "linewidth": 1.6, "label": "bumps"})
     return MICRO*float(numpy.nanmax(limit, initial=0.0))
+
+
+def draw_load(chart, keys):
+    """An arrow from the bearing's centre in the direction of the load of an echo."""
+    bearing, load = bearing_of(keys), keys.get(("operation", "load"))
+    both = numpy.array([float(word) for word in load[0].split(",")]) if load else numpy.zeros(2)
+    if bearing is None or len(both) != 2 or not numpy.hypot(*both) > 0.0:
+        return
+    tip = LOAD*MICRO*bearing.clearance*both/numpy.hypot(*both)
+    chart.annotate("", tip, (0.0, 0.0), arrowprops={"arrowstyle": "-|>", "color": "C5", "linewidth": 1.6, "shrinkA": 0.0, "shrinkB": 0.0})
+    chart.plot([], [], color="C5", linewidth=1.6, marker=">", markersize=5, label="load on the shaft")
 
 
 def mark(chart, bearing, angle, reach, look):

@@ -112,7 +112,7 @@ def draw_strip(points, moved, scene, pad):
         lines.plot(1.0e3*z, -1.0e6*moved[crests[number - 1], :, 1], label=f"bump {number}")
     lines.set(xlabel="z [mm]", ylabel="deflection [um]")
     lines.set_title("along crest lines", fontsize=10)
-    lines.legend(fontsize=8, ncols=2, loc="center", bbox_to_anchor=(0.5, 0.62))
+    lines.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
     lines.grid(alpha=0.3)
     return figure
 

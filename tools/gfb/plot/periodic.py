@@ -5,7 +5,7 @@ import math
 import numpy
 from matplotlib import pyplot
 
-from gfb.plot.clearance import crests_of, draw_limit
+from gfb.plot.clearance import crests_of, draw_limit, draw_load
 from gfb.plot.colours import round_numbers
 from gfb.plot.scene import case_name
 from gfb.plot.strip import used_keys
@@ -62,11 +62,12 @@ def draw_orbits(chart, rows, keys, crests):
     """Ways of the shaft's centre, -e, over a period, and the clearance with edges and bumps."""
     x, y = (-MICRO*rows[f"eccentricity_{axis}"] for axis in "xy")
     far = max(numpy.hypot(x, y).max(), draw_limit(chart, keys, crests))
+    draw_load(chart, keys)
     for row in numpy.unique(numpy.linspace(0, len(x) - 1, min(DRAWN, len(x))).astype(int)):
         chart.plot(x[row], y[row], "-" if rows["stable"][row] > 0.5 else "--", linewidth=1.0, color=pyplot.cm.viridis(row/max(1, len(x) - 1)))
     chart.set(xlabel="shaft's centre, -e_x [um]", ylabel="-e_y [um]", xlim=(-1.12*far, 1.12*far), ylim=(-1.12*far, 1.12*far),
               aspect="equal")
     chart.set_title("orbits: stable ones solid, later ones brighter", fontsize=10)
     if chart.get_legend_handles_labels()[0]:
-        chart.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3)
+        chart.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
     chart.grid(alpha=0.3)

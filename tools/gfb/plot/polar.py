@@ -57,7 +57,7 @@ def draw_field(chart, film, name):
     chart.set_ylim(low - inside, high + ROOM*span)
     chart.set_rorigin(low - HOLE*span - inside)
     chart.yaxis.set_major_locator(round_numbers(4))
-    chart.set_rlabel_position(45.0)
+    chart.set_rlabel_position(22.5)  # between the angles' labels
     chart.tick_params(axis="y", labelsize=8)
     chart.set_title(f"{WORDS[name]} [{unit}] over theta", fontsize=10, pad=12.0)
     chart.grid(alpha=0.4)

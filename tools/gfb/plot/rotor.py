@@ -9,7 +9,8 @@ from gfb.results import text_of
 from gfb.tool import stop
 
 KINDS = ("campbell", "map")
-ROTOR = 0.02   # a smaller share of the rotor is a mode of film or foil
+MODE = ("frequency", "damping_ratio", "shaft_share", "foil_share", "kind", "sense")  # what is told of each
+ROTOR = 0.02     # a smaller share of the rotor is a mode of film or foil
 DEAD = 0.9       # a larger damping ratio is no vibration
 KIND_WORDS = {1: "cylindrical", 2: "conical"}
 LEVELS = 12      # of a map
@@ -41,48 +42,95 @@ def along(file, name, points):
     return numpy.full(points, numpy.hypot(*value) if name == "load" else value[0])
 
 
+def read_modes(group, here=...):
+    """Modes of one answer, or on (point, mode), as arrays by name."""
+    return {name: group[f"mode_{name}"][here] for name in MODE if f"mode_{name}" in group}
+
+
+def of_foil(modes):
+    """Which modes are the foil's: the rotor has no share that counts, and the foil more of the energy than the film."""
+    if "foil_share" not in modes:
+        return numpy.zeros(modes["frequency"].shape, bool)
+    with numpy.errstate(invalid="ignore"):
+        return (modes["shaft_share"] < ROTOR) & (modes["foil_share"] > 1.0 - modes["shaft_share"] - modes["foil_share"])
+
+
+def rates(modes):
+    """growth + i frequency [1/s]."""
+    with numpy.errstate(invalid="ignore", divide="ignore"):
+        return modes["frequency"]*(1j - modes["damping_ratio"]/numpy.sqrt(1.0 - modes["damping_ratio"]**2))
+
+
+def branches(rate, kind, shown):
+    """Modes of neighbouring points that are one: of the same kind, and each the nearest of the other's point; lists of (point, mode)."""
+    found, open_ends = [], {}
+    for point in range(len(rate)):
+        ends = {}
+        for mode in numpy.flatnonzero(shown[point]):
+            before = nearest(rate, kind, shown, point - 1, rate[point, mode], kind[point, mode]) if point else None
+            back = before is not None and nearest(rate, kind, shown, point, rate[point - 1, before], kind[point, mode]) == mode
+            ends[mode] = open_ends[before] if back else []
+            if not back:
+                found.append(ends[mode])
+            ends[mode].append((point, mode))
+        open_ends = ends
+    return found
+
+
+def nearest(rate, kind, shown, point, wanted, own):
+    """The mode of a point that is nearest to a rate; None where none is of the kind."""
+    far = numpy.where(shown[point] & (kind[point] == own), numpy.abs(rate[point] - wanted), numpy.inf)
+    return int(numpy.argmin(far)) if numpy.isfinite(far).any() else None
+
+
 def draw_campbell(path, file):
-    """Frequencies of the modes over the speed, and their damping ratios; of modes that vibrate."""
+    """Frequencies of the rotor's modes over the speed, joined to branches, with their damping ratios; foil modes as marks."""
     if "dynamics/mode_frequency" not in file or "speed_rpm" not in file["history"]:
         stop(f"{path}: --show campbell needs a sweep over speed_rpm with &rotor")
-    speed = file["history/speed_rpm"][...]
-    of = {name: file[f"dynamics/mode_{name}"][...]
-          for name in ("frequency", "damping_ratio", "shaft_share", "kind", "sense")}
-    figure, (above, below) = pyplot.subplots(2, 1, figsize=(7.0, 7.0), sharex=True, layout="constrained")
+    speed, modes = file["history/speed_rpm"][...], read_modes(file["dynamics"])
+    rising = numpy.argsort(speed, kind="stable")
+    speed, modes = speed[rising], {name: values[rising] for name, values in modes.items()}
+    hertz, damping = modes["frequency"]/(2.0*numpy.pi), modes["damping_ratio"]
+    figure, (above, below) = pyplot.subplots(2, 1, figsize=(7.0, 7.4), sharex=True, layout="constrained")
     ends = numpy.array([0.0, 1.05*speed.max()])
-    for ratio in (0.5, 1.0):
-        above.plot(ends, ratio*ends/60.0, "k--" if ratio == 1.0 else "k:", linewidth=0.8)
-        above.annotate(f"{ratio:g} of the speed", (ends[1], ratio*ends[1]/60.0), fontsize=8, ha="right", va="bottom")
+    for ratio, words, style in ((1.0, "running speed", "k-."), (0.5, "half of it", "k:")):
+        above.plot(ends, ratio*ends/60.0, style, linewidth=1.0, label=words)
     with numpy.errstate(invalid="ignore"):
-        shown = (of["shaft_share"] > ROTOR) & (of["damping_ratio"] < DEAD)
+        vibrates = (damping < DEAD) & (hertz > 0.0)
+        shown = vibrates & (modes["shaft_share"] > ROTOR)
+    for branch in branches(rates(modes), modes["kind"], shown):
+        place = tuple(numpy.array(branch).T)
+        for chart, values in ((above, hertz), (below, damping)):
+            chart.plot(speed[place[0]], values[place], color=f"C{int(modes['kind'][place][0]) - 1}", linewidth=1.2)
     for kind, words in KIND_WORDS.items():
         for sense, way, marker in ((1.0, "forward", "o"), (-1.0, "backward", "v")):
-            here = shown & (of["kind"] == kind) & (of["sense"]*sense > 0.0)
-            if not here.any():
-                continue
-            speeds = numpy.broadcast_to(speed[:, None], here.shape)[here]
-            label, colour = f"{words}, {way}", f"C{kind - 1}"
-            above.plot(speeds, of["frequency"][here]/(2.0*numpy.pi), marker, color=colour, markersize=4,
-                       markerfacecolor=colour if sense > 0.0 else "none", label=label)
-            below.plot(speeds, of["damping_ratio"][here], marker, color=colour, markersize=4,
-                       markerfacecolor=colour if sense > 0.0 else "none", label=label)
+            here = shown & (modes["kind"] == kind) & (modes["sense"]*sense > 0.0)
+            if here.any():
+                look = {"color": f"C{kind - 1}", "markersize": 4, "markerfacecolor": f"C{kind - 1}" if sense > 0.0 else "w"}
+                mark_modes((above, below), speed, (hertz, damping), here, marker, f"{words}, {way}", look)
+    here = vibrates & of_foil(modes)
+    if here.any():
+        mark_modes((above, below), speed, (hertz, damping), here, "x", "of the foil", {"color": "C7", "markersize": 5})
     below.axhline(0.0, color="k", linewidth=0.8)
     if "onset_speed_rpm" in file["summary"]:
         onset = float(file["summary/onset_speed_rpm"][()])
         for chart in (above, below):
-            chart.axvline(onset, color="C3", linewidth=1.0)
-        below.annotate(f"onset {onset:,.0f} rpm", (onset, 0.98), xycoords=("data", "axes fraction"), fontsize=8,
-                       color="C3", rotation=90, ha="right", va="top")
-    above.set_ylim(0.0, 1.25*ends[1]/60.0)
-    above.set_xlim(ends)
-    above.set_ylabel("frequency [Hz]")
-    below.set_ylabel("damping ratio; below 0 the mode grows")
-    below.set_xlabel("speed [rpm]")
-    above.legend(fontsize=8)
+            chart.axvline(onset, color="C3", linewidth=1.0, label=f"onset {onset:,.0f} rpm" if chart is above else None)
+    highest = max([ends[1]/60.0, *hertz[shown | here]])
+    above.set(xlim=ends, ylim=(0.0, 1.05*highest), ylabel="frequency [Hz]")
+    below.set(xlabel="speed [rpm]", ylabel="damping ratio; below 0 the mode grows")
+    above.legend(fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, frameon=False)
     for chart in (above, below):
         chart.grid(alpha=0.3)
     figure.suptitle(path.name.removesuffix(".h5"), fontsize=11)
     return figure
+
+
+def mark_modes(charts, speed, fields, here, marker, label, look):
+    """A mark for each of some modes, in the charts of frequency and damping."""
+    speeds = numpy.broadcast_to(speed[:, None], here.shape)[here]
+    for chart, values in zip(charts, fields):
+        chart.plot(speeds, values[here], marker, label=label, zorder=3, **look)
 
 
 def draw_map(paths, files):

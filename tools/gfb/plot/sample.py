@@ -34,9 +34,10 @@ def draw(path, file, columns=()):
         charts[1].step(found, numpy.arange(1, len(found) + 1)/len(found), where="post")
         for level, value in zip(sample["quantiles"][...].ravel(), quantiles):
             charts[1].plot([value], [level], "o", color="C1", markersize=4.0)
-            charts[1].annotate(f"{100.0*level:.0f} %", (value, level), xytext=(6, -4), textcoords="offset points", fontsize=8)
+            charts[1].annotate(f"{100.0*level:.0f} %", (value, level), xytext=(-5, 3), textcoords="offset points", fontsize=8, ha="right")
         charts[1].set_ylabel("share of members below")
-        charts[1].set_ylim(0.0, 1.02)
+        charts[1].set_ylim(0.0, 1.06)
+        charts[1].margins(x=0.12)
         for chart in charts:
             chart.set_xlabel(named(name, unit))
             chart.grid(alpha=0.3)

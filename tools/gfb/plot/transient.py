@@ -5,7 +5,7 @@ import math
 import numpy
 from matplotlib import colors, patches, pyplot
 
-from gfb.plot.clearance import crests_of, draw_limit
+from gfb.plot.clearance import crests_of, draw_limit, draw_load
 from gfb.plot.colours import round_numbers
 from gfb.plot.scene import case_name, number
 from gfb.plot.strip import used_keys
@@ -117,11 +117,12 @@ def draw_orbit(chart, history, keys):
     """The way of the shaft's centre, how far it may go, where pads end and where bumps stand."""
     far = max(numpy.hypot(*place).max() for _, _, place in journals(history))
     far = max(far, draw_limit(chart, keys, history["crests"]))
+    draw_load(chart, keys)
     draw_way(chart, history)
     chart.set(xlabel="shaft's centre, -e_x [um]", ylabel="-e_y [um]", xlim=(-1.12*far, 1.12*far), ylim=(-1.12*far, 1.12*far),
               aspect="equal")
     chart.set_title("orbit", fontsize=10)
-    chart.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=4)
+    chart.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=4)
     chart.grid(alpha=0.3)
 
 
