@@ -118,7 +118,7 @@ class ReportTest(unittest.TestCase):
         self.assertIn("what 1 % more of each key does", told)
         self.assertEqual(sorted(parts, key=told.index), order)
         for name, share in per_cent.items():
-            self.assertRegex(told, rf"{name} [+-]\S+ um {re.escape(f'{share:+.2g}')} %")
+            self.assertRegex(told, rf"{name} [+-]\S+ um {re.escape(f'{share:+.3g}')} %")
 
     def test_bars_of_tolerances(self):
         """By tolerances or by 1 %, with what a sweep and the load's magnitude make of a key; the value of a list has that of the list."""

@@ -59,11 +59,14 @@ class Models:
     def plot(self, path: str | os.PathLike[str]) -> pathlib.Path:
         """Draws films and pressures of all models over the angle, and what each cost."""
         from matplotlib import pyplot
+
+        from gfb.plot.film import broken, ends_of
         figure, axes = pyplot.subplots(1, 3, figsize=(12.0, 3.8), layout="constrained", width_ratios=(3, 3, 2))
         for model, file in self.films.items():
             angle, film, where = line_of(read(file))
+            ends = ends_of(film["pad"].values) if "pad" in film else ()
             for chart, name, scale in zip(axes, ("gap", "pressure"), (1.0e6, 1.0e-3)):
-                chart.plot(angle, scale*film[name], label=model)
+                chart.plot(*broken(angle.values, scale*film[name].values, ends), label=model)
         for chart, words in zip(axes, ("film thickness [um]", "absolute pressure [kPa]")):
             chart.set(xlabel="theta [deg]", title=f"{words}, {where}" if self.films else words)
             chart.grid(alpha=0.3)

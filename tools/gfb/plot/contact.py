@@ -1,5 +1,7 @@
 """Contacts of foils: where they are open, stick or slip, and how hard they push, on every contact line; pad borders and cuts of strips."""
 
+import textwrap
+
 import numpy
 from matplotlib import colors, patches, pyplot
 
@@ -12,6 +14,7 @@ STATES = ("open", "sticks", "slips")
 STATE_COLOURS = ("0.85", "C0", "C1")
 STATE_LOOK = {"cmap": colors.ListedColormap(STATE_COLOURS), "norm": colors.Normalize(-0.5, 2.5)}
 MOST_BESIDE = 40   # contact lines of both surfaces that stand beside each other
+NARROW = 22        # letters of a line below charts that stand beside each other
 MOST_NUMBERED = 30 # contact lines of a map that all bear their number
 
 
@@ -45,11 +48,14 @@ def draw(path, file, rows, words, name, keys):
             if field != "state":
                 draw_bar(figure, list(charts), **look, pad=0.01)
     stacked = sum(wide) > MOST_BESIDE
-    for charts in axes.reshape(-1, len(surfaces)):
-        for chart in charts if stacked else charts[:1]:
+    for chart in axes.ravel():
+        if chart.get_subplotspec().is_first_col():
             chart.set_ylabel("radius [mm]" if "history/axial_gap" in file else "z [mm]")
-    for chart, surface in zip(axes[-1, -1], surfaces):
-        chart.set_xlabel(f"number along x of the{' ' if stacked else chr(10)}{SURFACES[surface]}", fontsize=9)
+    for charts in axes[-1]:
+        for chart, surface in zip(charts, surfaces):
+            if stacked or chart.get_subplotspec().is_last_row():
+                words = f"number along x of the {SURFACES[surface]}"
+                chart.set_xlabel(words if stacked else textwrap.fill(words, NARROW), fontsize=9)
     marks = [patches.Patch(color=colour, label=word) for word, colour in zip(STATES, STATE_COLOURS)]
     if cuts_of(0.0, 1.0, keys):
         marks.append(patches.Patch(facecolor="w", edgecolor="k", label="cut between strips"))
@@ -67,9 +73,13 @@ def look_of_forces(values):
 
 
 def charts_of(rows, fields, wide):
-    """A figure and its charts on (row, field, surface): surfaces side by side, or below each other where there is no room."""
-    many = rows*fields
-    if sum(wide) > MOST_BESIDE:
+    """A figure and its charts on (row, field, surface): all side by side, or surfaces, or everything below each other, as there is room."""
+    many, size = rows*fields, sum(wide)
+    if fields*size <= MOST_BESIDE:
+        figure, axes = pyplot.subplots(rows, fields*len(wide), squeeze=False, layout="constrained", sharey=True, sharex="col",
+                                       figsize=(max(6.5, 2.4 + 0.38*fields*size), 2.2*rows + 1.1), gridspec_kw={"width_ratios": fields*wide})
+        return figure, axes.reshape(rows, fields, len(wide))
+    if size > MOST_BESIDE:
         figure, axes = pyplot.subplots(many*len(wide), 1, squeeze=False, layout="constrained", figsize=(11.0, 2.2*many*len(wide) + 0.7),
                                        sharey=True)
         return figure, axes.reshape(rows, len(wide), fields).swapaxes(1, 2)

@@ -34,8 +34,7 @@ class Film:
 
     def broken(self, values):
         """theta, and values on the stations, with nothing between pads: a line over them has a gap where a bearing has one."""
-        inside = self.ends[:-1]
-        return numpy.insert(self.theta, inside, numpy.nan), numpy.insert(values, inside, numpy.nan, axis=0)
+        return broken(self.theta, values, self.ends[:-1])
 
     @property
     def middle(self):
@@ -46,6 +45,16 @@ class Film:
         """A field in the unit of a picture, and that unit."""
         unit, scale = READABLE.get(self.units[name], (self.units[name], 1.0))
         return self.fields[name]*scale, unit
+
+
+def ends_of(pad):
+    """Places behind the last station of every pad but the last, of the pads' numbers at the stations."""
+    return tuple(int(last) + 1 for last in numpy.flatnonzero(numpy.diff(pad)))
+
+
+def broken(along, values, ends):
+    """Places along a line and values there, with nothing between at these numbers."""
+    return numpy.insert(along, ends, numpy.nan), numpy.insert(values, ends, numpy.nan, axis=0)
 
 
 def readable(data):
@@ -70,7 +79,7 @@ def read_film(path, file, names=FIELDS):
     z = points[:rows, 2]
     z = z - 0.5*(z[0] + z[-1])  # of the second bearing of a rotor, too, from its midplane
     pad = fields["pad"][...].reshape(shape)[:, 0] if "pad" in fields else numpy.ones(shape[0])
-    ends = (*(int(last) + 1 for last in numpy.flatnonzero(numpy.diff(pad))), shape[0])
+    ends = (*ends_of(pad), shape[0])
     return Film(theta, z, {name: fields[name][...].reshape(shape) for name in there},
                 {name: attribute(fields[name], "unit") for name in there}, ends)
 

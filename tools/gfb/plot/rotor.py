@@ -3,8 +3,9 @@
 import re
 
 import numpy
-from matplotlib import pyplot
+from matplotlib import colors, pyplot
 
+from gfb.plot.colours import draw_bar, levels_of
 from gfb.results import text_of
 from gfb.tool import stop
 
@@ -13,7 +14,6 @@ MODE = ("frequency", "damping_ratio", "shaft_share", "foil_share", "kind", "sens
 ROTOR = 0.02     # a smaller share of the rotor is a mode of film or foil
 DEAD = 0.9       # a larger damping ratio is no vibration
 KIND_WORDS = {1: "cylindrical", 2: "conical"}
-LEVELS = 12      # of a map
 GRAVITY = 9.81   # [m/s2]
 
 
@@ -150,8 +150,9 @@ def draw_map(paths, files):
     if found.sum() < 3 or len(set(speed)) < 2 or len(set(load)) < 2:
         stop("--show map needs two loads, two speeds and three points where some mass whirls")
     figure, chart = pyplot.subplots(figsize=(7.0, 5.0), layout="constrained")
-    logarithm = numpy.log10(mass[found])
-    filled = chart.tricontourf(speed[found], load[found], logarithm, LEVELS, cmap="viridis")
+    ends = mass[found].min(), mass[found].max()
+    look = {"cmap": "viridis", "norm": colors.LogNorm(*ends)}
+    chart.tricontourf(speed[found], load[found], mass[found], levels=levels_of(*ends, look["norm"]), **look)
     lines = chart.tricontour(speed[found], load[found], ratio[found], 6, colors="w", linewidths=0.8)
     chart.clabel(lines, fontsize=8, fmt="%.2f")
     of_weight = numpy.log(mass[found]*GRAVITY/load[found])
@@ -162,10 +163,10 @@ def draw_map(paths, files):
     if (~found).any():
         chart.plot(speed[~found], load[~found], "kx", markersize=6, label="no mass whirls")
     if chart.get_legend_handles_labels()[0]:
-        chart.legend(fontsize=8)
-    bar = figure.colorbar(filled, ax=chart)
-    bar.set_label("critical mass [kg]")
-    bar.ax.set_yticks(bar.get_ticks(), [f"{10.0**tick:.3g}" for tick in bar.get_ticks()])
+        chart.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False)
+    draw_bar(figure, chart, **look).set_label("critical mass [kg]")
+    chart.use_sticky_edges = False
+    chart.margins(0.03)  # points at the ends of the axes are whole
     chart.set_xlabel("speed [rpm]")
     chart.set_ylabel("load [N]")
     chart.set_title("critical mass; white: frequency of the whirl over the speed", fontsize=10)

@@ -63,7 +63,7 @@ def block(quantity, derivatives, summary, tolerances, case, swept):
     value, unit = summary[quantity]["value"], summary[quantity]["unit"]
     largest = abs(effects[0][1]) if effects else 0.0
     bars = [{"key": key, "words": key.replace("%", ": ").replace("_", " "), "grows": effect > 0.0, "length": 100.0*abs(effect)/largest,
-             "effect": signed(effect, unit), "share": f"{100.0*effect/value:+.2g} %" if value else ""}
+             "effect": signed(effect, unit), "share": f"{100.0*effect/value:+.3g} %" if value else ""}
             for key, effect in effects[:MOST_BARS] if effect]
     spread = summary.get(f"standard_deviation_{quantity}", {}).get("value")
     return {"quantity": WORDS.get(quantity, quantity.replace("_", " ")), "value": plain(value, unit), "by_tolerance": by_tolerance, "bars": bars,
