@@ -194,6 +194,8 @@ class ColoursTest(unittest.TestCase):
         for thickest, thinnest, flat in ((140.0, 2.4, 6), (34.0, 29.9, 2)):  # as 400 N and 3 N leave it on the bearing of [Gu2020]
             gap = thinnest + (thickest - thinnest)*numpy.sin(0.5*angle)**flat
             self.assertGreater(self.shades("gap", gap, abs(angle) < 1.0), 20, f"{thinnest} to {thickest} um")
+        lifts = numpy.linspace(-10.0, 0.4, 721)  # a free edge beside the loaded part
+        self.assertGreaterEqual(self.shades("deflection", lifts, lifts > 0.0), 25)
 
     def test_a_free_edge_that_lifts_leaves_the_load_its_colours(self):
         norm = colours.around_zero(-30.0, 5.0)["norm"]

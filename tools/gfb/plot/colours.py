@@ -38,7 +38,9 @@ def levels_of(low, high, norm):
     """Borders of the colours between two values, as the scale spreads them."""
     if not high > low:  # contourf wants two
         return numpy.array((low, numpy.nextafter(low, numpy.inf)))
-    return (numpy.geomspace if isinstance(norm, colors.LogNorm) else numpy.linspace)(low, high, BANDS + 1)
+    levels = numpy.asarray(norm.inverse(numpy.linspace(norm(low), norm(high), BANDS + 1)), dtype=float)
+    levels[[0, -1]] = low, high  # without rounding
+    return levels
 
 
 def draw_bar(figure, charts, cmap, norm, **look):

@@ -8,7 +8,6 @@ import os
 import h5py
 import numpy
 from matplotlib import colors, pyplot
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from gfb import steps
 from gfb.plot.colours import around_zero, draw_bar
@@ -227,6 +226,7 @@ def strided(many, most):
 
 def paint(chart, surfaces, look, shade):
     """All surfaces in colours of one scale, as one collection: what is nearer covers what is behind it."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # --help is answered without matplotlib
     corners, values = (numpy.concatenate(part) for part in zip(*surfaces))
     shades = pyplot.get_cmap(look["cmap"])(look["norm"](values))
     if shade:

@@ -28,7 +28,7 @@ from gfb.tool import draw_into_files, say, stop
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
 ENDINGS = (".h5", ".summary")
-SURFACES = {"film": "the film", "top_foil": "the top foil", "top_foil_1": "the top foil of pad 1", "bump_foil": "the bump foil"}
+SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
 SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency", "campbell": "the rotor's modes over the speed"}
 SECONDS = 300     # no picture takes that long
 MOST_ROWS = 400   # of a table of points
@@ -90,7 +90,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         shows += ["campbell"]*("speed_rpm" in table and "dynamics/mode_frequency" in file)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
-    drawings = pictures_of(stem, points, shows, curve) if pictures else []
+    drawings = pictures_of(stem, points, shows, curve, thinnest_pad(summary)) if pictures else []
     return {"name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
             "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
             "glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary),
@@ -143,9 +143,17 @@ def needs_of(case_file, gfb):
 
 # --- pictures ---
 
-def pictures_of(stem, points, shows, curve=False):
+def thinnest_pad(summary):
+    """The number of the pad with the thinnest film; 0 where the pads are not told apart."""
+    gaps = {int(name.rpartition("_")[2]): one["value"] for name, one in summary.items() if re.fullmatch(r"minimum_gap_\d+", name)}
+    return min(gaps, key=gaps.get) if gaps else 0
+
+
+def pictures_of(stem, points, shows, curve=False, pad=0):
     """Title and picture of everything that tools/plot draws of a result, or of its points or time alone; what it cannot draw is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
+    which = f"pad {pad}, where the film is thinnest" if pad else "pad 1"
+    wanted += [(f"{SURFACES[part]} of {which}", [f"{stem}.{part}_{max(pad, 1)}.vtkhdf"]) for part in ("top_foil", "bump_foil")]
     wanted.insert(1, ("film and foils in space, heights and displacements drawn larger", [f"{stem}.film.vtkhdf", "--3d", "--picture-only"]))
     if "ring" not in shows:
         wanted.insert(1, ("pressure and film thickness around the shaft", [f"{stem}.film.vtkhdf", "--show", "polar"]))
