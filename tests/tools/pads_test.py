@@ -138,6 +138,15 @@ class PadsTest(unittest.TestCase):
             self.assertAlmostEqual(numpy.hypot(*corners).min(), 25.0, places=3)
             self.assertAlmostEqual(numpy.hypot(*corners).max(), 50.0, places=3)
 
+    def test_a_bearing_on_the_runners_other_side_covers_nothing(self):
+        """Six pads, and six on the other side, whose numbers go on: they stand higher, and away from the runner is up there."""
+        shaft = rolled.Shaft(0.05, tuple(numpy.arange(6.0)), 0.0, 0.0, runner=True)
+        sinks = {"displacement": numpy.array([[0.0, 0.0, -2.0e-6]])}
+        for name, opposite in (("top_foil_6", False), ("top_foil_7", True)):
+            surface = rolled.Surface(name, "top_foil", numpy.array([[0.03, 0.0, 0.0]]), numpy.zeros((0, 4)), 1, sinks, {})
+            self.assertAlmostEqual(float(surface.rolled(shaft)[0, 2]), 0.05*rolled.APART*opposite)
+            self.assertAlmostEqual(float(surface.away(shaft)[0]), -2.0e-6 if opposite else 2.0e-6)
+
     def test_a_foil_tells_the_angles_of_its_pad(self):
         path = self.folder/"pads.top_foil_2.vtkhdf"
         with open_results(path) as file:

@@ -13,6 +13,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb.report.glance import glance, sketch  # noqa: E402
+from gfb.report.main import thinnest_pad  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 
@@ -144,6 +145,11 @@ class ReportTest(unittest.TestCase):
                          [("bump_foil%crest_gap(2)", "+0.2 um", 100.0), ("bearing%clearance", "-0.1 um", 50.0), ("operation%load", "-0.02 um", 10.0)])
         self.assertEqual((one["spread"], one["silent"]), ("0.3 um", 0))
         self.assertEqual(sensitivities(result("minimum_gap", 5.0e-6), case), [])
+
+    def test_the_foil_shown_is_that_of_the_thinnest_film(self):
+        gaps = {name: {"value": value} for name, value in (("minimum_gap", 4.0e-6), ("minimum_gap_1", 9.0e-6), ("minimum_gap_2", 4.0e-6),
+                                                            ("minimum_gap_10", 5.0e-6), ("minimum_gap_edge", 1.0e-6))}
+        self.assertEqual((thinnest_pad(gaps), thinnest_pad({"minimum_gap": {"value": 4.0e-6}})), (2, 0))
 
     def test_margins(self):
         """What is asked first, against what the case says: better and worse than that."""

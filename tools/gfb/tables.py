@@ -2,7 +2,7 @@
 
 # SI unit: unit that is read, and what to multiply with.
 READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad": ("mrad", 1.0e3), "N m": ("mN m", 1.0e3),
-            "N/m": ("MN/m", 1.0e-6)}
+            "N/m": ("MN/m", 1.0e-6), "W/m2": ("kW/m2", 1.0e-3)}
 
 
 def plain_table(title, heads, rows):

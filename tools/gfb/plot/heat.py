@@ -13,7 +13,6 @@ from gfb.tool import stop
 
 KIND = "heat"
 FIELDS = {"temperature": "film temperature", "top_foil_temperature": "top foil temperature", "heat_flux_shaft": "heat into the shaft"}
-KILO = {"W/m2": ("kW/m2", 1.0e-3)}
 TINY = 1.0e-6     # of a temperature: a field that changes less is even
 NEARLY = 1.0e-5   # of the hottest place: others that are as hot are the same
 BEYOND = 0.03     # part of the places at either end that have the colour of its end: the film takes the temperature of its walls at once
@@ -46,9 +45,8 @@ def draw_film(path, file):
     axial, middle = 1.0e3*film.z, film.middle
     at_middle = abs(axial[middle]) <= ROUND_OFF*(axial[-1] - axial[0])
     for (chart, lines), name in zip(axes, film.fields):
-        unit, scale = KILO.get(film.units[name], (film.units[name], 1.0))
-        values = film.fields[name]*scale
-        if name not in KILO and numpy.ptp(values) <= TINY*numpy.abs(values).max():
+        values, unit = film.readable(name)
+        if numpy.ptp(values) <= TINY*numpy.abs(values).max():
             values = numpy.full_like(values, values.mean())  # held at a temperature: rounding makes no bands
         low, high = scale_of(values)
         draw_map(figure, chart, film, values, low, high, look_of(name, low, high), "both")

@@ -26,6 +26,7 @@ LONG = 2.5       # longest side over the shortest from which on the picture come
 ELEVATION, AZIMUTH = 24.0, -58.0
 BELOW = {"location": "bottom", "shrink": 0.6, "pad": 0.0}  # of a colour bar
 VTK_QUAD = 9
+APART = 1.7      # of a runner's radius: how far above it the picture puts a bearing on its other side
 ROUND_OFF = 1.0e-9  # of z [m]
 LIGHT = numpy.array((-0.22, 0.77, -0.60))  # whence it shines
 SHADOW = 0.65    # brightness of what turns away from it
@@ -61,7 +62,8 @@ class Surface:
     def rolled(self, shaft, height=1.0, travel=0.0):
         """Places of the points, moved by `travel` displacements, with heights off the shaft drawn larger [m]."""
         if shaft.runner:
-            return self.points*[1.0, 1.0, height] + (0.0 if self.kind == "film" else travel*self.fields["displacement"])
+            return self.points*[1.0, 1.0, height] + (0.0 if self.kind == "film" else travel*self.fields["displacement"]) \
+                + [0.0, 0.0, APART*shaft.radius*self.is_opposite(shaft)]
         angle, off, z = self.angle(shaft), numpy.zeros(len(self.points)), self.points[:, 2]
         if self.kind != "film":
             moved = travel*self.fields["displacement"]
@@ -70,12 +72,15 @@ class Surface:
         far = shaft.radius + off
         return numpy.column_stack((far*numpy.cos(angle), far*numpy.sin(angle), z))
 
+    def is_opposite(self, shaft):
+        """Whether it is of a bearing on the runner's other side: the second film, and pads that are counted on."""
+        return pad_of(self.name) > (1 if self.kind == "film" else len(shaft.begins))
+
     def away(self, shaft):
         """How far the points of a foil are away from shaft or runner, against where they rest [m]."""
         if not shaft.runner:
             return -self.fields["displacement"][:, 1]
-        faces_up = self.points[:, 2].mean() <= 0.0  # those of a bearing on the runner's other side do not
-        return (-1.0 if faces_up else 1.0)*self.fields["displacement"][:, 2]
+        return (1.0 if self.is_opposite(shaft) else -1.0)*self.fields["displacement"][:, 2]
 
     def displacement(self, shaft):
         """Displacement vectors of the rolled points [m]."""
@@ -176,7 +181,7 @@ def draw_film(figure, chart, films, shaft, scene):
     places = [1.0e3*film.rolled(shaft) for film in films]
     paint(chart, [patches(*one) for one in zip(films, places, values)], look, shade=False)
     draw_bar(figure, chart, **look, **BELOW).set_label(f"{WORDS['pressure']} [kPa]", fontsize=9)
-    words = "film on the sectors" if shaft.runner else "film on the shaft"
+    words = "film on the sectors" + ", the runner's other side above"*any(film.is_opposite(shaft) for film in films) if shaft.runner else "film on the shaft"
     if scene.load_angle is not None:
         angle, z = math.radians(scene.load_angle), 0.0
         along = 1.0e3*shaft.radius*numpy.array((math.cos(angle), math.sin(angle), z))
