@@ -43,8 +43,9 @@ def draw(runs, folder):
 
 def draw_both(rows, keys):
     """The orbit in its clearance and enlarged, and the smallest film."""
-    figure, (whole, near, film) = pyplot.subplots(1, 3, layout="constrained", figsize=(15.5, 6.0))
+    figure, (whole, near, film) = pyplot.subplots(1, 3, layout="constrained", figsize=(15.5, 5.4))
     draw_orbit(whole, rows, keys)
+    whole.legend(fontsize=8, loc="center", bbox_to_anchor=(0.5, 0.7))  # above the arrow of the load
     draw_way(near, rows)
     low, high = (numpy.array([function(place) for place in places(rows)]) for function in (numpy.min, numpy.max))
     half = (0.5 + ROOM)*(high - low).max()

@@ -152,7 +152,7 @@ def draw_thinnest(chart, history, _):
     chart.set(xlabel="time [s]", ylabel="thinnest film [um]", ylim=(0.0, None))
     chart.locator_params(axis="x", nbins=5)
     chart.set_title("thinnest film", fontsize=10)
-    chart.legend(fontsize=8)
+    chart.legend(fontsize=8, loc="lower left")  # next to zero, where the least is drawn
     chart.grid(alpha=0.3)
 
 
