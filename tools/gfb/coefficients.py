@@ -21,13 +21,15 @@ import pathlib
 
 import numpy
 
-from gfb.results import Unreadable, open_results, reading
+from gfb.case import Case
+from gfb.results import Unreadable, open_results, reading, text_of
 from gfb.state_space import CannotFit, fit
 from gfb.tool import say, stop
 
 PLANE = (("xx", 0, 0), ("xy", 0, 1), ("yx", 1, 0), ("yy", 1, 1))  # name, row, column
 ROSS_3 = "3: a table over the speed of the shaft (rows) and the frequency of vibration"
 MOTIONS = (4, 3)  # of a journal, and of a runner: e_z, phi_x, phi_y
+SAME = 1.0e-9  # relative difference of speeds that are one, typed in rpm or computed
 LARGE = 1.0e-3  # deviation of a fit that is warned of
 REFUSED = 1.0e-2  # and that is refused, unless it is asked for
 ABOUT = ("x' = A x + B a, force on the shaft = -(C x + D a + E a'), all changes against the steady state. a: displacement of "
@@ -61,7 +63,7 @@ def read_speeds(path):
     share, K and C (speed, frequency, row, column)."""
     with reading(path), open_results(path) as file:
         if "dynamics/stiffness" not in file or "speed_rpm" not in file.get("history", {}) or file["dynamics/stiffness"].ndim != 4:
-            raise Unreadable(f"{path}: a sweep, but not over speed_rpm with analysis = 'linear_dynamics'; say which of its points with --point")
+            raise Unreadable(f"{path}: a sweep, but not over speed_rpm with analysis = 'linear_dynamics'; say which of its points (--point, in Python speed_rpm)")
         speed = file["history/speed_rpm"].astype(float)[...]*math.pi/30.0
         frequency, *both = (file[f"dynamics/{name}"].astype(float)[...] for name in ("frequency", "stiffness", "damping"))
         order = numpy.argsort(speed)
@@ -70,12 +72,55 @@ def read_speeds(path):
             raise ValueError("stiffness and damping are neither 4 x 4 a speed and frequency, nor 3 x 3 of a thrust bearing")
         if (frequency != frequency[0]).any():
             raise Unreadable(f"{path}: a table over the speed needs the same frequencies at all speeds: give &dynamics frequencies, "
-                             "not frequency_ratios, or say which point with --point")
+                             "not frequency_ratios, or say which point (--point, in Python speed_rpm)")
         lost = [number for number, values in enumerate(zip(*both), 1) if not numpy.isfinite(values).all()]
         if lost or len(set(speed)) < len(speed):
             raise Unreadable(f"{path}: a table over the speed needs speeds that differ, and an answer at each; "
                              + (f"point {lost[0]} has none" if lost else "there are equal ones"))
         return speed[order], frequency[0], *(values[order] for values in both)
+
+
+def speeds_of(path):
+    """Speeds [rpm] of a sweep over them, a point each; of one speed that alone; None where a file does not say it."""
+    with reading(path), open_results(path) as file:
+        if "speed_rpm" in file.get("history", {}):
+            return file["history/speed_rpm"].astype(float)[...]
+        case = Case.parse(text_of(file["scene/case_file"][()])) if "scene/case_file" in file else Case()
+        return [float(case["operation%speed_rpm"])] if "operation%speed_rpm" in case else None
+
+
+def read_at_speed(path, speed_rpm):
+    """The same as read_coefficients, of a speed: that of the file, or of a sweep over it; None: of the file."""
+    speeds, swept = speeds_of(path), is_sweep(path)
+    if speed_rpm is None or (speeds is None and not swept):
+        point = None
+    else:
+        found = [number for number, speed in enumerate([] if speeds is None else speeds, 1) if abs(speed - speed_rpm) <= SAME*speed]
+        if not found:
+            raise Unreadable(f"{path}: no coefficients of {speed_rpm:g} rpm"
+                             + ("" if speeds is None else f", only of {', '.join(f'{speed:g}' for speed in speeds)}"))
+        point = found[0] if swept else None
+    data = read_coefficients(path, point)
+    if not all(numpy.isfinite(values).all() for values in data):
+        raise Unreadable(f"{path}: there is no answer" + ("" if speed_rpm is None else f" at {speed_rpm:g} rpm"))
+    return data
+
+
+def read_synchronous(path):
+    """Of a sweep over the speed, in the order of the speeds [rad/s]: speeds, K and C (speed, row, column) at the frequency that equals the speed."""
+    speeds = speeds_of(path)
+    if speeds is None or not is_sweep(path):
+        raise Unreadable(f"{path}: synchronous coefficients are of a sweep over speed_rpm with analysis = 'linear_dynamics'")
+    found = []
+    for speed_rpm in sorted(speeds):
+        frequency, *both = read_at_speed(path, speed_rpm)
+        speed = speed_rpm*math.pi/30.0
+        nearest = int(numpy.argmin(abs(frequency - speed)))
+        if abs(frequency[nearest] - speed) > SAME*speed:
+            raise Unreadable(f"{path}: no coefficients of vibrations at the speed, {speed_rpm:g} rpm: give frequency_ratios with 1.0, or "
+                             "frequencies with all speeds [rad/s]")
+        found.append((speed, *(values[nearest] for values in both)))
+    return tuple(map(numpy.array, zip(*found)))
 
 
 def is_sweep(path):
