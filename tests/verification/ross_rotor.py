@@ -4,17 +4,24 @@
 Each eigenvalue is iterated with the coefficients at its own frequency; the mass at which the least damped mode neither grows
 nor decays is gfb's critical mass. ROSS 2 reads a table over the frequency, ROSS 3 that and one over speed and frequency. They
 come from PyPI, into build/ross and build/ross3; where neither can be had the test says so and is skipped.
+
+The blocks of docs/manual/flexible_rotor.md are run, too: its onset of a stiff rotor is gfb's own, that of the flexible one is found by
+other equations, the bearings' state-space matrices under ROSS's shaft, in which nothing is iterated.
 """
 
 import math
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
-TOOL = pathlib.Path(__file__).resolve().parents[2]/"tools/coefficients"
+PROJECT = pathlib.Path(__file__).resolve().parents[2]
+TOOL = PROJECT/"tools/coefficients"
+PAGE = PROJECT/"docs/manual/flexible_rotor.md"
+NEXT_TO_ONSET = (14000.0, 15000.0)  # of the page's flexible rotor [rpm]
 RPM = 60000.0
 CASE = {
     "scene": {"analysis": "linear_dynamics"},
@@ -78,11 +85,69 @@ def critical_mass(path, speed, low, high):
     return 0.5*(low + high), found.imag
 
 
+def least_decrement(shaft, nodes, paths, speed_rpm):
+    """Least logarithmic decrement of a rotor without bearings on the state-space matrices of these: eigenvalues without iteration."""
+    import numpy
+    from gfb.coefficients import read_at_speed
+    from gfb.state_space import fit
+    size, number_dof, speed = shaft.ndof, shaft.number_dof, speed_rpm*math.pi/30.0
+    stiffness, damping, states, inputs, forces = shaft.K0.copy(), shaft.C0 + speed*shaft.G(), [], [], []
+    for node, path in zip(nodes, paths):
+        frequency, *both = read_at_speed(path, speed_rpm)
+        a, b, c, d, e = fit(frequency, both[0] + 1j*frequency[:, None, None]*both[1]).matrices()
+        place = numpy.zeros((2, size))  # of the node's x and y
+        place[[0, 1], [number_dof*node, number_dof*node + 1]] = 1.0
+        stiffness, damping = stiffness + place.T @ d[:2, :2] @ place, damping + place.T @ e[:2, :2] @ place
+        states.append(a), inputs.append(b[:, :2] @ place), forces.append(place.T @ c[:2])
+    inverse, ends = numpy.linalg.inv(shaft.M0), numpy.cumsum([0, *map(len, states)])
+    matrix = numpy.zeros((2*size + ends[-1], 2*size + ends[-1]))
+    matrix[:size, size:2*size] = numpy.eye(size)
+    matrix[size:2*size, :2*size] = -inverse @ numpy.hstack((stiffness, damping))
+    for first, last, a, b, c in zip(2*size + ends[:-1], 2*size + ends[1:], states, inputs, forces):
+        matrix[first:last, first:last], matrix[first:last, :size], matrix[size:2*size, first:last] = a, b, -inverse @ c
+    values = numpy.linalg.eigvals(matrix)
+    whirling = values[(values.imag > 0.1*speed) & (values.imag < 1.2*speed)]
+    return float(min(-2.0*math.pi*whirling.real/whirling.imag))
+
+
+def run_page():
+    """The page's blocks; then the same decrements and onset by matrices. Lines of what is compared."""
+    import numpy
+    names = {}
+    exec("".join(re.findall(r"^```python\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)), names)
+    paths = [f"{result.stem}.h5" for result in names["results"]]
+    by_page = [min(mode.logarithmic_decrement for mode in names["modes"][speed]) for speed in NEXT_TO_ONSET]
+    by_matrices = [least_decrement(names["pinned"], names["nodes"], paths, speed) for speed in NEXT_TO_ONSET]
+    onset = float(numpy.interp(0.0, by_matrices[::-1], NEXT_TO_ONSET[::-1]))
+    stiff = [float(number) for number in (12900.0 - 100.0*names["low"]/(names["high"] - names["low"]), names["rigid"]["onset_speed_rpm"])]
+    print("page:", names["onset"], onset, *by_page, *by_matrices, *stiff)
+
+
 # --- in the tests' ---
+
+def check_page(checks, name, python, folder):
+    """What the page's blocks find, and what stands in the page."""
+    (pathlib.Path(folder)/"inputs").symlink_to(PROJECT/"inputs")
+    done = subprocess.run([python, __file__, "--page"], capture_output=True, encoding="utf-8", check=False, cwd=folder,
+                          env={**os.environ, "PYTHONPATH": str(PROJECT/"tools"), "OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg"})
+    words = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("page:")]
+    checks.that(f"{name}: the page's blocks run {'' if words else done.stderr[-500:]}", len(words) == 1)
+    if words:
+        onset, by_matrices, slow, fast, slow_too, fast_too, stiff, by_gfb = map(float, words[0])
+        written = float(re.search(r"# onset: (\d+) rpm", PAGE.read_text(encoding="utf-8"))[1])
+        checks.below(f"{name}: onset of the flexible rotor {onset:.0f} rpm, in the page {written:.0f} rpm", onset/written - 1.0, 1.0e-3)
+        checks.below(f"{name}: the same by matrices {by_matrices:.0f} rpm", onset/by_matrices - 1.0, 2.0e-3)
+        checks.below(f"{name}: decrements {slow:.4f}, {fast:.4f}, by matrices {slow_too:.4f}, {fast_too:.4f}",
+                     max(abs(slow - slow_too), abs(fast - fast_too)), 5.0e-3)
+        checks.below(f"{name}: onset of the stiff rotor {stiff:.1f} rpm, by gfb's &rotor {by_gfb:.1f} rpm", stiff/by_gfb - 1.0, 1.0e-4)
+
 
 def main():
     if sys.argv[1:2] == ["--mass"]:
         print("critical:", *critical_mass(sys.argv[2], *map(float, sys.argv[3:])))
+        return
+    if sys.argv[1:2] == ["--page"]:
+        run_page()
         return
     from gfb_run import GFB, Checks
     from gfb.run import run_file, write_case
@@ -116,6 +181,9 @@ def main():
                 found, frequency = map(float, words[0])
                 checks.below(f"{name}: critical mass {mass:.5g} kg, by ROSS {found:.5g} kg", found/mass - 1.0, 1.0e-2)
                 checks.below(f"{name}: whirl ratio {ratio:.4f}, by ROSS {frequency/speed:.4f}", frequency/speed/ratio - 1.0, 1.0e-2)
+    for name, python in pythons.items():
+        with tempfile.TemporaryDirectory() as folder:
+            check_page(checks, name, python, folder)
     checks.close()
 
 
