@@ -6,15 +6,15 @@ Times depend on the machine and on what else runs there; compare only numbers of
 import argparse
 import pathlib
 
-from gfb.bench import (accuracy, assembly, bearing, bearing_mesh, condensation, dynamics, faults, film, linear_solvers, measured, population,
-                       profile, scaling, strip, thermal, thrust, transient, work_precision)
+from gfb.bench import (accuracy, assembly, bearing, bearing_mesh, bearings, condensation, dynamics, faults, film, linear_solvers, measured,
+                       population, profile, scaling, strip, thermal, thrust, transient, work_precision)
 from gfb.run import find_gfb
 from gfb.tool import draw_into_files, stop
 
 COMMANDS = {"film": film, "accuracy": accuracy, "assembly": assembly, "condensation": condensation, "dynamics": dynamics, "faults": faults,
-            "strip": strip, "bearing": bearing, "bearing-mesh": bearing_mesh, "linear-solvers": linear_solvers, "measured": measured,
-            "population": population, "profile": profile, "scaling": scaling, "thermal": thermal, "thrust": thrust, "transient": transient,
-            "work-precision": work_precision}
+            "strip": strip, "bearing": bearing, "bearing-mesh": bearing_mesh, "bearings": bearings, "linear-solvers": linear_solvers,
+            "measured": measured, "population": population, "profile": profile, "scaling": scaling, "thermal": thermal, "thrust": thrust,
+            "transient": transient, "work-precision": work_precision}
 
 
 def main():
