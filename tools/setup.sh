@@ -12,7 +12,7 @@ run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi
 report_packages=(python3-numpy python3-h5py python3-matplotlib python3-jinja2)
 # shellcheck disable=SC2034
 test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py python3-matplotlib python3-xarray
-  python3-jinja2 findent hunspell hunspell-en-gb
+  python3-scipy python3-jinja2 findent hunspell hunspell-en-gb
   ca-certificates)
 # shellcheck disable=SC2034
 long_packages=(python3-sphinx python3-myst-parser libjs-mathjax dpkg-dev)

@@ -1,4 +1,5 @@
-"""gfb from Python: `gfb.read`, `gfb.Case`, `gfb.run`, `gfb.study`, `gfb.compare_models`, `gfb.design`, `gfb.ross_bearings`; and what is behind the commands of tools/.
+"""gfb from Python: `gfb.read`, `gfb.Case`, `gfb.run`, `gfb.study`, `gfb.compare_models`, `gfb.design`, `gfb.optimize`,
+`gfb.ross_bearings`; and what is behind the commands of tools/.
 
 What a name needs is imported where it is asked for: the commands of tools/ do without xarray."""
 
@@ -11,16 +12,18 @@ if TYPE_CHECKING:
     from gfb.door import Result, RunError, run, study
     from gfb.flexible_rotor import Mode, ross_bearings, ross_modes
     from gfb.models import Models, compare_models
+    from gfb.optimum import Optimum, optimize
     from gfb.reading import read
 
-__all__ = ["Case", "CaseError", "Design", "Mode", "Models", "Result", "RunError", "compare_models", "design", "read", "ross_bearings",
-           "ross_modes", "run", "study"]
+__all__ = ["Case", "CaseError", "Design", "Mode", "Models", "Optimum", "Result", "RunError", "compare_models", "design", "optimize",
+           "read", "ross_bearings", "ross_modes", "run", "study"]
 __version__ = "0.1.0"
 
 _HOMES = {"Case": "gfb.case", "CaseError": "gfb.case", "Result": "gfb.door", "RunError": "gfb.door",
           "study": "gfb.door", "read": "gfb.reading", "Models": "gfb.models", "compare_models": "gfb.models",
           "Design": "gfb.design_study", "design": "gfb.design_study",
-          "Mode": "gfb.flexible_rotor", "ross_bearings": "gfb.flexible_rotor", "ross_modes": "gfb.flexible_rotor"}
+          "Mode": "gfb.flexible_rotor", "ross_bearings": "gfb.flexible_rotor", "ross_modes": "gfb.flexible_rotor",
+          "Optimum": "gfb.optimum", "optimize": "gfb.optimum"}
 
 
 def missing(what: str, error: ModuleNotFoundError) -> ImportError:
