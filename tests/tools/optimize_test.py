@@ -241,6 +241,10 @@ class Optimize(unittest.TestCase):
         case["sweep%parameter"], case["sweep%values"] = "load", (20.0, 30.0)
         with self.assertRaisesRegex(gfb.CaseError, "&sweep"):
             self.optimize(case, minimize="power_loss", vary=vary)
+        del case.groups["sweep"]
+        case["operation%load"] = (0.0, 0.0)
+        with self.assertRaisesRegex(gfb.CaseError, "no direction"):
+            self.optimize(case, minimize="power_loss", vary={"operation%load": (0.0, 40.0)})
         program = self.stub((3.0, 5.0))
         with self.assertRaisesRegex(gfb.CaseError, "is no start: no answer"):
             self.optimize(gfb.Case({"list": {"values": (1.0, 6.0)}}), minimize="power_loss", vary={"list%values(:)": (1.0, 7.0)}, gfb=program)

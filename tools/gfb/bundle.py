@@ -20,7 +20,7 @@ GOOD = 0.7           # of it, for a longer reach
 LONGER, SHORTER = 2.0, 0.4
 LET_DOWN = 0.05      # of a plane, over the square of its distance: a little of the curvature that scaled functions have
 MOST_PLANES = 40     # the nearest of them
-PENALTY = 100.0      # of the largest violation: above what a bound costs in objectives and bounds that are scaled
+PENALTY = 10.0       # of the largest violation, at first; more where a step would pay for breaking a bound
 MOST_PENALTY = 1.0e4
 FIRST_REACH, LONGEST_REACH, SMALLEST_REACH = 1.0, 100.0, 1.0e-8
 MOST_STEPS = 2000    # of the models, which cost no run; a search that has not ended by then goes to and fro
@@ -62,7 +62,9 @@ def minimise(function: Function, start: numpy.ndarray, tolerance: float) -> str:
             continue
         gain = merit(centre.values, penalty) - merit(trial.values, penalty)
         planes.append(trial)
-        if gain > ENOUGH*promised:
+        if gain > ENOUGH*promised and worst(trial.values) > worst(centre.values) + tolerance and penalty < MOST_PENALTY:
+            penalty *= 10.0
+        elif gain > ENOUGH*promised:
             centre = trial
             reach = min(LONGER*reach, LONGEST_REACH) if gain > GOOD*promised else reach
         elif gain < -promised or promise(planes, centre, step, penalty) > 0.5*promised:  # too far for the planes, or let down too much

@@ -414,6 +414,8 @@ def variable_of(case: Case, name: str, places: list[tuple[str, int | None]], low
     if not all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
         raise CaseError(f"gfb.optimize: {name}: must be a number; of a list say which, (3), or all, (:)")
     start = float(numpy.mean(values))
+    if not 0.0 < start and (LOAD, None) in places:
+        raise CaseError("gfb.optimize: a load of zero has no direction")
     if not low <= start <= high:
         raise CaseError(f"gfb.optimize: {name}: starts at {start:g}, must be within its bounds {low:g} and {high:g}")
     return Variable(name, places, float(low), float(high), start)
