@@ -39,7 +39,7 @@ class Variable:
     """What is varied: keys, or elements of lists, that share one value."""
 
     name: str
-    places: list[tuple[str, int | None]]  # key, number in its list
+    places: Sequence[tuple[str, int | None]]  # key, number in its list
     low: float
     high: float
     start: float
@@ -48,7 +48,7 @@ class Variable:
         """Writes a value into a case."""
         for key, number in self.places:
             if number is not None:
-                values = list(case[key])  # type: ignore[arg-type]
+                values: list[Any] = list(listed(case, key))
                 values[number - 1] = value
                 case[key] = tuple(values)
             elif key == LOAD:
@@ -196,10 +196,11 @@ def slsqp(runner: Runner, goal: Goal, start: numpy.ndarray, tolerance: float) ->
             raise Enough
         return gradients
 
+    kept = {"type": "ineq", "fun": lambda place: -seen(place)[0][1:], "jac": lambda place: -slope(place)[1:]}
     try:
         done = minimize(lambda place: seen(place)[0][0], start, jac=lambda place: slope(place)[0], method="SLSQP",
                         bounds=start.size*[(0.0, 1.0)], options={"ftol": tolerance, "maxiter": runner.most_runs},
-                        constraints=[{"type": "ineq", "fun": lambda place: -seen(place)[0][1:], "jac": lambda place: -slope(place)[1:]}] if count else ())
+                        constraints=[kept] if count else ())
     except Enough:
         if len(runner.runs) >= runner.most_runs:
             raise
@@ -399,9 +400,9 @@ def variables_of(case: Case, vary: Mapping[str, tuple[float, float]]) -> list[Va
     return variables
 
 
-def variable_of(case: Case, name: str, places: list[tuple[str, int | None]], low: float, high: float) -> Variable:
+def variable_of(case: Case, name: str, places: Sequence[tuple[str, int | None]], low: float, high: float) -> Variable:
     """One variable; it starts at the mean of what stands in the case."""
-    values = []
+    values: list[Any] = []
     for key, number in places:
         if number is None and key == LOAD:
             values.append(math.hypot(*case[key]))  # type: ignore[misc, arg-type]
