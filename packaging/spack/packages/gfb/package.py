@@ -41,6 +41,7 @@ class Gfb(CMakePackage):
     depends_on("py-matplotlib", type="test")
     depends_on("py-jinja2", type="test")
     depends_on("py-xarray", type="test")
+    depends_on("py-scipy", type="test")
 
     def cmake_args(self):
         spec = self.spec
