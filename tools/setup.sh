@@ -5,11 +5,15 @@
 root=$(CDPATH='' cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd -P)
 requirements=$root/tools/requirements.txt
 venv=$root/build/venv
+studio_requirements=$root/tools/requirements_studio.txt
+studio_venv=$root/build/studio_venv
 
 run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin
   petsc-dev slepc-dev libhdf5-openmpi-dev libmetis-dev libmumps-dev libsuitesparse-dev libopenblas0-serial python3)
 # shellcheck disable=SC2034 # used by those who source this
 report_packages=(python3-numpy python3-h5py python3-matplotlib python3-jinja2)
+# shellcheck disable=SC2034
+studio_packages=("${report_packages[@]}" python3-venv python3-xarray util-linux ca-certificates)
 # shellcheck disable=SC2034
 test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py python3-matplotlib python3-xarray
   python3-scipy python3-jinja2 findent hunspell hunspell-en-gb
@@ -95,22 +99,39 @@ install_packages() {
 
 # Python packages that Debian lacks, in a virtual environment that sees Debian's own.
 need_venv() {
-  local log=$root/build/pip.log base=/usr/bin/python3 wanted names
+  fill_venv "$venv" "$requirements" "$(grep -o '^[a-z-]*==[^ ]*' -- "$requirements" | tr '\n' ' ')"
+}
+
+# Those of tools/studio, in one of their own: nobody else needs them.
+need_studio_venv() {
+  if [[ ${GFB_INSTALL:-yes} == no ]] && ! is_filled "$studio_venv" "$studio_requirements"; then
+    stop 'tools/studio needs the library NiceGUI in build/studio_venv: without GFB_INSTALL=no, tools/studio --install puts it there'
+  fi
+  fill_venv "$studio_venv" "$studio_requirements" "$(grep -o '^nicegui==[^ ]*' -- "$studio_requirements") and what it needs (130 MB, once)"
+}
+
+# is_filled FOLDER REQUIREMENTS
+is_filled() {
+  base=/usr/bin/python3
   [[ -x $base ]] || base=$(command -v python3) || stop 'python3 is missing'
-  wanted=$("$base" --version)$'\n'$(<"$requirements")
-  if [[ -x $venv/bin/python && -f $venv/installed.txt && $(<"$venv/installed.txt") == "$wanted" ]]; then
+  wanted=$("$base" --version)$'\n'$(<"$2")
+  [[ -x $1/bin/python && -f $1/installed.txt && $(<"$1/installed.txt") == "$wanted" ]]
+}
+
+# fill_venv FOLDER REQUIREMENTS NAMES: makes it where it is not as it should be.
+fill_venv() {
+  local log=$root/build/pip.log base wanted
+  if is_filled "$1" "$2"; then
     return
   fi
-  names=$(grep -o '^[a-z-]*==[^ ]*' -- "$requirements" | tr '\n' ' ')
-  say "installing in build/venv with pip: $names"
-  rm -rf -- "$venv"
-  if ! { "$base" -m venv --system-site-packages "$venv" && "$venv/bin/python" -m pip install --no-input \
-    --disable-pip-version-check --require-hashes --requirement "$requirements"; } >"$log" 2>&1 </dev/null 9>&-; then
-    tail -n 15 -- "$log" >&2
-    stop "pip failed; its messages are in $log"
+  say "installing in build/${1##*/} with pip: $3"
+  rm -rf -- "$1"
+  if ! { "$base" -m venv --system-site-packages "$1" && "$1/bin/python" -m pip install --no-input \
+    --disable-pip-version-check --require-hashes --requirement "$2"; } >"$log" 2>&1 </dev/null 9>&-; then
+    { grep '^ERROR' -- "$log" || tail -n 15 -- "$log"; } >&2
+    stop "pip failed, which needs the network this once; its messages are in $log"
   fi
-  printf '%s\n' "$wanted" >"$venv/installed.txt"
-  say "installed in build/venv: $names"
+  printf '%s\n' "$wanted" >"$1/installed.txt"
 }
 
 # build_program PRESET TARGET: configures where needed, builds, and shows errors only. The preset developer has the

@@ -1,4 +1,4 @@
-"""Commands of an installed package, `gfb-plot`, `gfb-report`, `gfb-design`, `gfb-coefficients`: those of tools/ with the same names."""
+"""Commands of an installed package, `gfb-plot`, `gfb-report`, `gfb-design`, `gfb-coefficients`, `gfb-studio`: those of tools/ with the same names."""
 
 import importlib
 
@@ -23,3 +23,8 @@ def design():
 def coefficients():
     """Writes stiffness and damping for other programs."""
     return run(lambda: importlib.import_module("gfb.coefficients").main())
+
+
+def studio():
+    """A page in the browser."""
+    return run(lambda: importlib.import_module("gfb.studio.main").main())

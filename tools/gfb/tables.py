@@ -1,8 +1,17 @@
-"""Tables for the terminal and for the documentation, and the units that people read."""
+"""Tables for the terminal and for the documentation, and the units that people read and type."""
+
+import math
 
 # SI unit: unit that is read, and what to multiply with.
 READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad": ("mrad", 1.0e3), "N m": ("mN m", 1.0e3),
             "N/m": ("MN/m", 1.0e-6), "W/m2": ("kW/m2", 1.0e-3)}
+# The same for units in which drawings and data sheets have what a case file has in SI units, before those that are read.
+TYPED = {"m": ("mm", 1.0e3), "rad": ("deg", 180.0/math.pi), "Pa": ("GPa", 1.0e-9)}
+
+
+def units_of(unit):
+    """{unit: what to multiply SI with} of all units in which a number may be typed, its own last."""
+    return dict([*(one[unit] for one in (TYPED, READABLE) if unit in one), (unit, 1.0)])
 
 
 def plain_table(title, heads, rows):

@@ -192,20 +192,26 @@ def draw_film(figure, chart, films, shaft, scene):
     equal_sides(chart, numpy.concatenate(places))
 
 
-def draw_foils(figure, chart, foils, shaft, _):
-    """Foils coloured by how far they are away from where they rest."""
+def drawn_larger(foils, shaft):
+    """Places of the foils' points with heights and displacements drawn larger [m], how far these are away from shaft or runner [um],
+    and how much larger heights and displacements are; heights of a plate are none: 1."""
     across = 2 if shaft.runner else 1
     height = numpy.ptp(numpy.concatenate([foil.points[:, across] for foil in foils])) + shaft.clearance
-    taller = max(1.0, round_scale(HEIGHT*shaft.radius/height)) if height > 0.0 else 1.0  # a plate has none
-    away = [1.0e6*foil.away(shaft) for foil in foils]
+    taller = max(1.0, round_scale(HEIGHT*shaft.radius/height)) if height > 0.0 else 1.0
     largest = max(float(numpy.abs(foil.fields["displacement"]).max()) for foil in foils)
     travel = round_scale(TRAVEL*shaft.radius/largest) if largest > 0.0 else 1.0
+    return [foil.rolled(shaft, taller, travel) for foil in foils], [1.0e6*foil.away(shaft) for foil in foils], taller, travel
+
+
+def draw_foils(figure, chart, foils, shaft, _):
+    """Foils coloured by how far they are away from where they rest."""
+    found, away, taller, travel = drawn_larger(foils, shaft)
+    places = [1.0e3*one for one in found]
     cut = 0 < sum(foil.kind == "bump_foil" for foil in foils) < len(foils) and not shaft.runner
-    places = [1.0e3*foil.rolled(shaft, taller, travel) for foil in foils]
     look = around_zero(min(one.min() for one in away), max(one.max() for one in away))
     paint(chart, [patches(*one, cut=cut and one[0].kind == "bump_foil") for one in zip(foils, places, away)], look, shade=True)
     draw_bar(figure, chart, **look, **BELOW).set_label(f"deflection away from the {'runner' if shaft.runner else 'shaft'} [um]", fontsize=9)
-    chart.set_title(f"foils: displacements x {travel:g}" + (f", heights x {taller:g}" if height > 0.0 else "")
+    chart.set_title(f"foils: displacements x {travel:g}" + (f", heights x {taller:g}" if taller > 1.0 else "")
                     + (", bumps in front cut away" if cut else ""), fontsize=10)
     equal_sides(chart, numpy.concatenate(places))
 

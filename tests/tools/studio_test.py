@@ -1,0 +1,558 @@
+#!/usr/bin/env python3
+"""tools/studio: values, texts and messages; its server, asked by Python's own HTTP client; its page in Chromium."""
+
+import asyncio
+import base64
+import contextlib
+import http.client
+import math
+import os
+import pathlib
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
+from chromium import BROWSER, Browser  # noqa: E402
+from gfb.case import Case, program  # noqa: E402
+from gfb.namelist import namelist_value  # noqa: E402
+from gfb.studio.checking import check, read_messages  # noqa: E402
+from gfb.studio.keys import read_keys  # noqa: E402
+from gfb.studio.runs import Folder, Refused, Run, Runs  # noqa: E402
+from gfb.studio.text import with_value, without_group  # noqa: E402
+from gfb.tool import ROOT  # noqa: E402
+
+LIBRARY = (ROOT/"build/studio_venv/installed.txt").exists()
+WITHOUT = "the library NiceGUI is not installed: tools/studio --install puts it into build/studio_venv"
+SECONDS = 60
+LONG = (ROOT/"inputs/transient_unbalance.nml").read_text(encoding="utf-8")
+HOSTILE = "<img src=x onerror=\"document.title='taken'\"><script>document.title='taken'</script>${document.title='taken'}`</script>"
+SMALL = f"""! what a bearing is
+&scene title = '{HOSTILE.replace("'", "''")}' /
+&bearing
+  radius = 0.02   ! of the shaft
+  length = 0.04
+  clearance = 20.0e-6
+/
+&gas viscosity = 2.0e-5 ambient_pressure = 1.0e5 /
+&operation speed_rpm = 20000.0 load = -20.0, 0.0 /
+&model foil = 'rigid' /
+&mesh circumferential_elements = 48 axial_elements = 8 /
+"""
+
+
+def is_alive(number):
+    """Whether a process runs."""
+    try:
+        state = pathlib.Path(f"/proc/{number}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return state != "Z"
+
+
+def wait(condition, seconds=SECONDS):
+    """Waits until something is so; its value."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if value := condition():
+            return value
+        time.sleep(0.05)
+    raise AssertionError("it never came")
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.addCleanup(place.cleanup)
+        self.outside = pathlib.Path(place.name)
+        (self.outside/"secret.nml").write_text("&scene title = 'secret words' /\n", encoding="utf-8")
+        self.folder = self.outside/"cases"
+        self.folder.mkdir()
+        (self.folder/"small.nml").write_text(SMALL, encoding="utf-8")
+
+
+class Values(unittest.TestCase):
+    """What is typed into a field, and what stands in it."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.keys = read_keys(program())
+
+    def test_units(self):
+        bearing, top_foil = self.keys["bearing"], self.keys["top_foil"]
+        for key, words, value in ((bearing["clearance"], "31.8 um", 31.8e-6), (bearing["clearance"], "31.8e-6", 31.8e-6),
+                                  (bearing["radius"], "19.05mm", 19.05e-3), (bearing["radius"], "0.02 m", 0.02),
+                                  (top_foil["youngs_modulus"], "214 GPa", 214.0e9), (self.keys["operation"]["load"], "-100, 0", (-100.0, 0.0)),
+                                  (self.keys["bump_foil"]["bumps"], "26", 26), (self.keys["bump_foil"]["strip_height"], "2*0.5e-3", (0.5e-3, 0.5e-3)),
+                                  (bearing["kind"], "thrust", "thrust"), (self.keys["scene"]["title"], "2", "2"),
+                                  (self.keys["sweep"]["friction_memory"], "true", True), (bearing["radius"], "", None)):
+            self.assertEqual((key.typed(words), type(key.typed(words))), (value, type(value)), words)
+        self.assertAlmostEqual(bearing["leading_edge_angle"].typed("45 deg"), math.pi/4.0, delta=1.0e-15)
+        self.assertEqual(bearing["radius"].shown(19.05e-3), "19.05 mm")
+        self.assertEqual(bearing["clearance"].shown(31.8e-6), "31.8 um")
+        self.assertEqual(bearing["leading_edge_angle"].shown(math.pi/4.0), "45 deg")
+        self.assertEqual(self.keys["gas"]["ambient_pressure"].shown(101350.0), "101.35 kPa")
+
+    def test_what_is_no_value_is_the_programs_to_refuse(self):
+        radius = self.keys["bearing"]["radius"]
+        for words in ("1 furlong", "abc", "1.0 / &gas", "1.0 um um", "'x'", "1,,2"):
+            text = with_value(SMALL, "bearing", "radius", namelist_value(radius.typed(words)))
+            found = asyncio.run(check(program(), text, "."))
+            self.assertFalse(found.is_right, words)
+            self.assertIn(("bearing", "radius"), [(one.group, one.key) for one in found.messages], words)
+            self.assertEqual(list(Case.parse(text).groups), list(Case.parse(SMALL).groups), words)
+
+    def test_every_key_of_every_input_is_known_and_comes_back(self):
+        seen = 0
+        for path in sorted((ROOT/"inputs").glob("*.nml")):
+            for group, values in Case.read(path).groups.items():
+                for name, value in values.items():
+                    key, seen = self.keys[group][name], seen + 1
+                    back = key.typed(key.shown(value))
+                    if isinstance(value, (float, tuple)) and not isinstance(back, str) and not isinstance(value[0] if isinstance(value, tuple) else 0.0, str):
+                        for one, other in zip(value if isinstance(value, tuple) else (value,), back if isinstance(back, tuple) else (back,), strict=True):
+                            self.assertAlmostEqual(one, other, delta=1.0e-11*abs(one), msg=f"{path.name} {group}%{name}")
+                    else:
+                        self.assertEqual(back, value, f"{path.name} {group}%{name}")
+        self.assertGreater(seen, 1000)
+
+    def test_the_table_is_that_of_the_program(self):
+        listed = subprocess.run([program(), "--keys"], capture_output=True, text=True, check=True).stdout.count("\n| `&")
+        self.assertEqual(sum(map(len, self.keys.values())), listed)
+        self.assertIn("shell", self.keys["model"]["foil"].choices)
+
+
+class Texts(unittest.TestCase):
+    """One value changes, all else stays."""
+
+    def test_a_value_is_replaced(self):
+        self.assertEqual(with_value(SMALL, "bearing", "radius", "0.03"), SMALL.replace("radius = 0.02 ", "radius = 0.03 "))
+        self.assertEqual(with_value(SMALL, "operation", "load", "1.0, 2.0"), SMALL.replace("-20.0, 0.0", "1.0, 2.0"))
+        self.assertEqual(with_value("&a b = '/ & b = 1' c = 2 /", "a", "c", "3"), "&a b = '/ & b = 1' c = 3 /")
+
+    def test_a_value_comes_and_goes(self):
+        text = with_value(SMALL, "bearing", "leading_edge_angle", "0.1")
+        self.assertIn("  clearance = 20.0e-6\n  leading_edge_angle = 0.1\n/\n", text)
+        self.assertEqual(with_value(text, "bearing", "leading_edge_angle", None), SMALL)
+        text = with_value(SMALL, "rotor", "mass", "1.0")
+        self.assertTrue(text.endswith("\n&rotor\n  mass = 1.0\n/\n"))
+        self.assertEqual(without_group(text, "rotor").rstrip(), SMALL.rstrip())
+        self.assertEqual(with_value(SMALL, "rotor", "mass", None), SMALL)
+
+    def test_every_input(self):
+        for path in sorted((ROOT/"inputs").glob("*.nml")):
+            text, case = path.read_text(encoding="utf-8"), Case.read(path)
+            for name in case:
+                group, key = name.split("%")
+                other = case.copy()
+                del other[name]
+                left = with_value(text, group, key, None)
+                self.assertEqual(Case.parse(left).groups, other.groups, f"{path.name} {name}")
+                again = with_value(left, group, key, namelist_value(case[name]))
+                self.assertEqual(Case.parse(again).groups, case.groups, f"{path.name} {name}")
+                self.assertEqual(left.count("!"), text.count("!") - sum("!" in line for line in text.splitlines() if line not in left.splitlines()))
+
+
+class Messages(unittest.TestCase):
+    def test_each_has_its_place(self):
+        text = SMALL.replace("radius = 0.02 ", "radius = -1.0 ").replace("length = 0.04", "lenght = 0.04").replace("foil = 'rigid'", "foil = 'rigidd'")
+        found = asyncio.run(check(program(), text, "."))
+        self.assertEqual({(one.line, one.group, one.key) for one in found.messages if not one.is_warning},
+                         {(4, "bearing", "radius"), (5, "bearing", "lenght"), (10, "model", "foil")})
+        without = asyncio.run(check(program(), SMALL.replace("length = 0.04", ""), "."))
+        self.assertEqual([(one.group, one.key) for one in without.messages], [("bearing", "length")])
+        self.assertIn("did you mean 'length'", " ".join(map(str, found.messages)))
+        self.assertTrue(asyncio.run(check(program(), SMALL, ".")).is_right)
+        self.assertIn("film mesh: 48 x 8", asyncio.run(check(program(), SMALL, ".")).needs)
+
+    def test_every_message_of_the_program_has_a_line_or_a_group(self):
+        seen = 0
+        for path in sorted((ROOT/"tests/bad_input").glob("*.nml")):
+            text = path.read_bytes().decode("utf-8", "replace")
+            done = subprocess.run([program(), "--check", "-"], input=text.encode(), capture_output=True, check=False)
+            for one in read_messages(done.stderr.decode("utf-8", "replace")):
+                self.assertNotIn("stdin", one.words, path.name)
+                seen += bool(one.line or one.group)
+        self.assertGreater(seen, 300)
+
+
+class Places(InFolder):
+    """The chosen folder and what is outside."""
+
+    def test_outside_is_refused(self):
+        (self.folder/"link.nml").symlink_to(self.outside/"secret.nml")
+        (self.folder/"below").symlink_to(self.outside)
+        place = Folder(self.folder)
+        for name in ("../secret.nml", str(self.outside/"secret.nml"), "link.nml", "below/secret.nml", "a/../../secret.nml", "\0.nml", "a"*5000):
+            with self.assertRaises(Refused, msg=name):
+                place.read(name)
+        self.assertEqual(place.cases(), ["small.nml"])
+        for name in ("../new", "", ".hidden", "a/b", "link", None, "\0"):
+            with self.assertRaises(Refused, msg=name):
+                place.write(name, "text", None)
+        self.assertEqual((self.outside/"secret.nml").read_text(encoding="utf-8"), "&scene title = 'secret words' /\n")
+
+    def test_what_somebody_else_wrote_stays(self):
+        place = Folder(self.folder)
+        with self.assertRaises(Refused):
+            place.write("small", "mine", None)
+        place.write("small", "mine", SMALL)
+        with self.assertRaises(Refused):
+            place.write("small", "older", SMALL)
+        self.assertEqual((self.folder/"small.nml").read_text(encoding="utf-8"), "mine")
+
+    def test_a_run_never_gets_the_folder_of_another(self):
+        place = Folder(self.folder)
+        made = [place.new_run("small") for _ in range(3)]
+        self.assertEqual([path.name for path in made], ["small.run1", "small.run2", "small.run3"])
+        made[1].rmdir()
+        self.assertEqual(place.new_run("small").name, "small.run2")
+
+
+class Processes(InFolder):
+    """Runs begin, say how far they are, and end."""
+
+    def runs(self, script=None):
+        """Runs of gfb, or of a script in its place."""
+        if script is None:
+            return Runs(Folder(self.folder), program())
+        path = self.outside/"gfb"
+        path.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+        path.chmod(0o755)
+        return Runs(Folder(self.folder), str(path))
+
+    async def ended(self, run):
+        while run.status is None:
+            await asyncio.sleep(0.02)
+
+    def test_a_run_leaves_results(self):
+        async def work():
+            runs = self.runs()
+            run = await runs.start("small", SMALL)
+            await self.ended(run)
+            return run
+        run = asyncio.run(work())
+        self.assertEqual((run.status, run.words), (0, "has an answer"))
+        self.assertEqual(run.stem.resolve(), (self.folder/"small.run1/small").resolve())
+        self.assertIn("minimum gap", "\n".join(run.lines))
+        self.assertEqual(Folder(self.folder).results(), ["small.run1/small"])
+
+    def test_progress_is_that_of_the_points(self):
+        class Process:
+            returncode = None
+        run = Run("a", self.folder, Process())
+        self.assertIsNone(run.part)
+        run.lines = ["film 4 x 4", "point 4 of 9: load = 3 N, about 2 s left", "a line of 3 words"]
+        self.assertEqual(run.part, 3/9)
+
+    def test_a_run_is_stopped(self):
+        async def work():
+            runs = self.runs()
+            run = await runs.start("long", LONG)
+            await asyncio.sleep(1.0)
+            self.assertIsNone(run.status)
+            runs.end(run)
+            await asyncio.wait_for(self.ended(run), SECONDS)
+            return run
+        run = asyncio.run(work())
+        self.assertEqual(run.words, "was stopped")
+        self.assertFalse(is_alive(run.process.pid))
+
+    def test_what_does_not_listen_is_killed_with_its_children(self):
+        async def work():
+            runs = self.runs("trap '' TERM; sleep 600 & echo $!; while :; do sleep 1; done")
+            run = await runs.start("deaf", SMALL)
+            while not run.lines:
+                await asyncio.sleep(0.02)
+            runs.end(run)
+            await asyncio.wait_for(self.ended(run), SECONDS)
+            return run
+        run = asyncio.run(work())
+        self.assertFalse(is_alive(run.process.pid) or is_alive(int(run.lines[0])))
+
+    def test_a_killed_server_leaves_no_run(self):
+        script = ("import asyncio, sys\nfrom gfb.studio.runs import Folder, Runs\n"
+                  "async def work():\n    run = await Runs(Folder(sys.argv[1]), sys.argv[2]).start('long', sys.stdin.read())\n"
+                  "    print(run.process.pid, flush=True)\n    await asyncio.sleep(600)\nasyncio.run(work())\n")
+        with subprocess.Popen([sys.executable, "-c", script, self.folder, program()], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                              env={**os.environ, "PYTHONPATH": str(ROOT/"tools")}) as server:
+            server.stdin.write(LONG)
+            server.stdin.close()
+            number = int(server.stdout.readline())
+            wait(lambda: pathlib.Path(f"/proc/{number}/comm").read_text(encoding="utf-8").strip() == "gfb")
+            self.assertTrue(is_alive(number))
+            server.kill()
+            wait(lambda: not is_alive(number), 10)
+
+    def test_no_more_runs_than_cores(self):
+        async def work():
+            runs = self.runs("sleep 600")
+            for _ in range(runs.most):
+                await runs.start("many", SMALL)
+            with self.assertRaises(Refused):
+                await runs.start("many", SMALL)
+            for run in runs.all:
+                runs.end(run)
+            for run in runs.all:
+                await self.ended(run)
+        asyncio.run(work())
+
+
+class Served(InFolder):
+    """A server of its own for each test."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder/"link.nml").symlink_to(self.outside/"secret.nml")
+        self.server = subprocess.Popen([ROOT/"tools/studio", self.folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                       stdin=subprocess.DEVNULL, env={**os.environ, "GFB": program(), "GFB_INSTALL": "no"})
+        self.addCleanup(self.end)
+        line = self.server.stdout.readline()
+        if not line:
+            self.fail(self.server.stderr.read())
+        self.address = re.search(r"http://127\.0\.0\.1:(\d+)(/[\w-]{20,}/)", line)
+        self.port, self.root = int(self.address[1]), self.address[2]
+        wait(self.answers)
+
+    def answers(self):
+        with contextlib.suppress(OSError):
+            return self.ask(self.root)[0] == 200
+
+    def end(self):
+        self.server.terminate()
+        try:
+            _, self.complaint = self.server.communicate(timeout=20)
+        except subprocess.TimeoutExpired:
+            self.server.kill()
+            self.server.communicate()
+            raise
+
+    def ask(self, path, method="GET", body=None, **headers):
+        """Status, headers and text of what the server answers."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        with contextlib.closing(connection):
+            connection.request(method, path, body, {name.replace("_", "-"): value for name, value in headers.items()})
+            answer = connection.getresponse()
+            return answer.status, dict(answer.getheaders()), answer.read().decode("utf-8", "replace")
+
+    def socket_status(self, path, origin, host=None):
+        """The first line of the answer to a websocket that a page of that origin opens."""
+        key = base64.b64encode(os.urandom(16)).decode()
+        words = [f"GET {path} HTTP/1.1", f"Host: {host or f'127.0.0.1:{self.port}'}", "Upgrade: websocket", "Connection: Upgrade",
+                 f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13", *([f"Origin: {origin}"] if origin else []), "", ""]
+        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as wire:
+            wire.sendall("\r\n".join(words).encode())
+            return int(wire.recv(4096).split()[1])
+
+
+@unittest.skipUnless(LIBRARY, WITHOUT)
+class ServerTest(Served):
+    def test_who_gets_nothing(self):
+        """All in one server: each request differs from one that is answered by one thing."""
+        own = f"http://127.0.0.1:{self.port}"
+        polling, wire = f"{self.root}_nicegui_ws/socket.io/?EIO=4&transport=polling", f"{self.root}_nicegui_ws/socket.io/?EIO=4&transport=websocket"
+        status, headers, text = self.ask(self.root)
+        self.assertEqual(status, 200)
+        self.assertIn("frame-ancestors 'none'", headers["content-security-policy"])
+        self.assertEqual(headers["referrer-policy"], "no-referrer")
+        self.assertNotIn("access-control-allow-origin", {name.lower() for name in headers})
+        self.assertEqual((self.ask(self.root, Origin=own)[0], self.ask(polling, Origin=own)[0]), (200, 200))
+        self.assertEqual(self.socket_status(wire, own), 101)
+        with self.subTest("another site's page"):
+            for origin in ("https://example.org", "null", "http://127.0.0.1", f"http://localhost:{self.port + 1}", f"http://127.0.0.1:{self.port}.example.org"):
+                for path, method in ((self.root, "GET"), (self.root, "POST"), (polling, "GET"), (polling, "POST")):
+                    self.assertEqual(self.ask(path, method, Origin=origin)[0], 403, (origin, path))
+                self.assertEqual(self.socket_status(wire, origin), 403, origin)
+        with self.subTest("another name for this machine"):
+            for host in ("example.org", f"example.org:{self.port}", f"127.0.0.1:{self.port + 1}", "127.0.0.1"):
+                self.assertEqual(self.ask(self.root, Host=host)[0], 403, host)
+                self.assertEqual(self.ask(self.root, Host=host, Origin=f"http://{host}")[0], 403, host)
+                self.assertEqual(self.socket_status(wire, f"http://{host}", host), 403, host)
+        with self.subTest("no token, or another"):
+            wrong = "/" + self.root[2:-1] + ("A" if self.root[1] != "A" else "B") + "/"
+            for first in ("/", wrong, self.root[:-2] + "/", "/../", f"/.{self.root}"):
+                for rest in ("", "_nicegui_ws/socket.io/?EIO=4&transport=polling", "favicon.ico", "docs", "openapi.json"):
+                    answer = self.ask(first + rest)
+                    self.assertEqual(answer[0], 404, first + rest)
+                    self.assertNotIn("gfb", answer[2])
+                self.assertIn(self.socket_status(f"{first}_nicegui_ws/socket.io/?EIO=4&transport=websocket", own), (403, 404), first)
+        with self.subTest("files"):
+            for name in ("../secret.nml", "small.nml", "..%2f..%2fsecret.nml", "_nicegui/../../../../../../../../etc/passwd", "%2e%2e/secret.nml",
+                         "/etc/passwd"):
+                status, _, text = self.ask(self.root + name)
+                self.assertFalse("secret words" in text or "root:" in text or "what a bearing is" in text, name)
+        with self.subTest("another machine"):
+            listening = [line.split()[1] for table in ("tcp", "tcp6") for line in
+                         pathlib.Path(f"/proc/{self.server.pid}/net/{table}").read_text(encoding="utf-8").splitlines()[1:]
+                         if line.split()[3] == "0A" and line.split()[1].endswith(f":{self.port:04X}")]
+            self.assertEqual(listening, [f"0100007F:{self.port:04X}"])
+
+    def test_it_ends_by_a_signal_and_says_nothing_more(self):
+        self.end()
+        self.assertEqual((self.server.returncode in (0, -signal.SIGTERM, 128 + signal.SIGTERM), self.complaint), (True, ""))
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["link.nml", "small.nml"])
+
+
+@unittest.skipUnless(LIBRARY, WITHOUT)
+class StartTest(InFolder):
+    def test_what_is_wrong_is_one_sentence(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            for words, status, said in ((["none"], 1, "no such folder"), (["--gfb", "none", "--port", "0", "none"], 1, "no such folder"),
+                                        (["--port", str(taken.getsockname()[1])], 3, "--port"), (["--port", "99999999"], 3, "--port")):
+                done = subprocess.run([ROOT/"tools/studio", *words], capture_output=True, text=True, check=False, cwd=self.folder,
+                                      env={**os.environ, "GFB": program(), "GFB_INSTALL": "no"}, timeout=60)
+                self.assertEqual((done.returncode, done.stderr.count("\n"), said in done.stderr), (status, 1, True), done.stderr)
+
+
+@unittest.skipUnless(LIBRARY, WITHOUT)
+@unittest.skipUnless(BROWSER, "Chromium is not installed")
+class BrowserTest(Served):
+    def setUp(self):
+        super().setUp()
+        profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.addCleanup(profile.cleanup)
+        self.browser = Browser(profile.name)
+        self.addCleanup(self.browser.close)
+
+    def open(self, case="", **size):
+        """A tab, once its case is checked."""
+        page = self.browser.page(self.address[0] + (f"?case={case}" if case else ""), **size)
+        page.wait("/in order|mistake/.test(document.querySelector('.verdict')?.innerText)")
+        return page
+
+    def text(self, page):
+        """What stands in the editor; of a long text what is seen of it."""
+        return page.run("document.querySelector('.cm-content').innerText")
+
+    def assert_quiet(self, *pages):
+        """No complaint of the page, nothing asked for elsewhere, nothing taken over."""
+        for page in pages:
+            self.assertEqual(page.complaints(), [])
+            asked = page.asked()
+            self.assertGreater(len(asked), 10)
+            self.assertEqual({one.split(":")[0] for one in asked} | {"http", "data", "blob"}, {"http", "data", "blob"})
+            self.assertEqual([one for one in asked if one.startswith("http") and not one.startswith(self.address[0])], [])
+            self.assertEqual(page.run("document.title"), "gfb studio")
+
+    def test_a_case_is_built_checked_run_and_compared(self):
+        page = self.open()
+        for group, key, words in (("bearing", "radius", "20 mm"), ("bearing", "length", "40 mm"), ("bearing", "clearance", "-20 um")):
+            page.type(f"[data-key='{group}%{key}']", words)
+            page.wait("/=/.test(document.querySelector('.cm-content').innerText)")
+        page.wait("document.querySelector('.verdict').innerText.includes('1 mistake')")
+        page.wait("document.querySelector('.cm-content').innerText.includes('clearance = -2e-05')")
+        field = "document.querySelector(\"[data-key='bearing%clearance']\").closest('.q-field').innerText"
+        page.wait(f"{field}.includes('must be positive')")
+        self.assertIn("line 8: &bearing: clearance", page.run("document.querySelector('.said').innerText"))
+        page.wait("document.querySelectorAll('.cm-line.wrong').length === 1")
+        page.press("run", "button")
+        page.wait("document.body.innerText.includes('the case has mistakes')")
+        self.assertEqual([path.name for path in self.folder.iterdir() if path.is_dir()], [])
+        page.type("[data-key='bearing%clearance']", "20 um")
+        page.wait("document.querySelector('.verdict').innerText.includes('in order')")
+        # The text, and what the form makes of it.
+        page.type(".cm-content", SMALL)
+        page.wait("document.querySelector(\"[data-key='mesh%axial_elements']\")?.value === '8'")
+        page.wait("document.querySelector(\"[data-key='bearing%radius']\").value === '20 mm'")
+        page.wait("document.querySelector('.verdict').innerText.includes('in order')")
+        page.type("[data-key='bearing%clearance']", "24 um")
+        page.wait("document.querySelector('.cm-content').innerText.includes('clearance = 2.4e-05')")
+        self.assertIn("! of the shaft", self.text(page))
+        for number in (1, 2):
+            if number == 2:
+                page.press("case", "[role=tab]")
+                page.type("[data-key='bearing%clearance']", "20 um")
+                page.wait("document.querySelector('.cm-content').innerText.includes('clearance = 2e-05')")
+            page.press("run", "button")
+            page.wait(f"Array.from(document.querySelectorAll('.state')).filter((one) => one.innerText.includes('has an answer')).length === {number}")
+            page.press("show results", "button")
+            page.wait(f"document.querySelectorAll('.result .js-plotly-plot canvas').length >= {number} && document.querySelectorAll('.answers').length === {number}")
+        ran = [self.folder/f"equilibrium.run{number}" for number in (1, 2)]
+        gaps = [float(re.search(r"minimum_gap = (\S+)", (one/"equilibrium.summary").read_text(encoding="utf-8"))[1]) for one in ran]
+        self.assertNotEqual(*gaps)
+        shown = page.run("document.body.innerText")
+        for gap in gaps:
+            self.assertIn(f"{1.0e6*gap:.4g} um", shown)
+        self.assertIn("bearing%clearance", shown)
+        page.press("film: pressure", ".q-field")
+        page.press("film: gap", ".q-item")
+        page.wait("Array.from(document.querySelectorAll('.result .js-plotly-plot')).filter((one) => one.data?.[0].colorbar.title.text"
+                  " === 'gap [um]').length === 2")
+        self.assertLessEqual(page.run("document.documentElement.scrollWidth"), 1300)
+        page.resize(420, 900)
+        page.wait("document.documentElement.scrollWidth <= 420")
+        page.press("case", "[role=tab]")
+        page.wait("document.documentElement.scrollWidth <= 420")
+        self.assert_quiet(page)
+
+    def test_a_run_is_stopped_and_goes_with_a_killed_server(self):
+        (self.folder/"long.nml").write_text(LONG, encoding="utf-8")
+        page = self.open("long.nml")
+        page.press("run", "button")
+        page.wait("document.querySelector('.state')?.innerText.includes('runs')")
+        page.press("stop", "button")
+        page.wait("document.querySelector('.state').innerText.includes('was stopped')")
+        self.assert_quiet(page)
+        page.press("case", "[role=tab]")
+        page.press("run", "button")
+        children = pathlib.Path(f"/proc/{self.server.pid}/task/{self.server.pid}/children")
+        number = wait(lambda: [int(one) for one in children.read_text(encoding="utf-8").split()
+                               if pathlib.Path(f"/proc/{one}/comm").read_text(encoding="utf-8").strip() == "gfb"])[0]
+        self.server.kill()
+        wait(lambda: not is_alive(number), 10)
+
+    def test_a_hostile_title_is_a_title(self):
+        page = self.open("small.nml")
+        page.wait(f"document.querySelector(\"[data-key='scene%title']\").value.startsWith({HOSTILE[:20]!r})")
+        page.press("run", "button")
+        page.press("show results", "button")
+        page.wait("document.querySelectorAll('.answers').length === 1")
+        self.assertIn(HOSTILE, page.run("document.body.innerText"))
+        # Messages, too, have the words of the file.
+        page.press("case", "[role=tab]")
+        page.type(".cm-content", SMALL.replace("&model foil = 'rigid'", "&model foil = '<img src=x onerror=alert(1)>'"))
+        page.wait("document.querySelector('.said').innerText.includes('<img src=x')")
+        self.assertEqual(page.run("document.querySelectorAll('img[src=x]').length"), 0)
+        self.assert_quiet(page)
+
+    def test_what_is_outside_is_not_opened(self):
+        for name in ("../secret.nml", "link.nml", str(self.outside/"secret.nml")):
+            page = self.open(name.replace("/", "%2F"))
+            page.wait("document.body.innerText.includes('outside the chosen folder')")
+            self.assertNotIn("secret words", page.run("document.documentElement.outerHTML"))
+
+    def test_two_tabs(self):
+        first, second = self.open("small.nml"), self.open("small.nml")
+        first.type("[data-key='bearing%clearance']", "25 um")
+        first.wait("document.querySelector('.cm-content').innerText.includes('2.5e-05')")
+        self.assertNotIn("2.5e-05", self.text(second))
+        self.assertEqual(second.run("document.querySelector(\"[data-key='bearing%clearance']\").value"), "20 um")
+        first.press("save", "button")
+        first.wait("document.body.innerText.includes('is written')")
+        second.type("[data-key='bearing%clearance']", "30 um")
+        second.wait("document.querySelector('.cm-content').innerText.includes('3e-05')")
+        second.press("save", "button")
+        second.wait("document.body.innerText.includes('with other contents')")
+        self.assertIn("2.5e-05", (self.folder/"small.nml").read_text(encoding="utf-8"))
+        for page in (first, second):
+            page.press("run", "button")
+        for page in (first, second):
+            page.wait("Array.from(document.querySelectorAll('.state')).filter((one) => one.innerText.includes('has an answer')).length === 2")
+        kept = sorted(re.search(r"clearance = (\S+)", path.read_text(encoding="utf-8"))[1] for path in self.folder.glob("small.run*/small.nml"))
+        self.assertEqual(kept, ["2.5e-05", "3e-05"])
+        # What was typed and not saved is there after the tab is loaded again.
+        second.call("Page.navigate", url=self.address[0])
+        second.wait("document.querySelector('.cm-content')?.innerText.includes('3e-05')")
+        self.assert_quiet(first, second)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main()

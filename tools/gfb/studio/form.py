@@ -1,0 +1,167 @@
+"""The form: a field for every key that the program knows, in its groups."""
+
+from nicegui import ui
+
+GIVEN, NOT_GIVEN = "", "not in the case"
+WAIT = 400  # ms without a key stroke until a field is taken over
+
+
+class Field:
+    """One key."""
+
+    def __init__(self, key, value, change):
+        self.key, self.value, self.change, self.messages = key, value, change, ()
+        if key.choices:
+            self.input = ui.select(self.options(value), label=key.name, value=key.shown(value), on_change=self.typed)
+        else:
+            self.input = ui.input(f"{key.name} [{key.unit}]" if key.unit not in ("", "1") else key.name, value=key.shown(value),
+                                  on_change=self.typed).props(f"debounce={WAIT}").on("blur", self.tidy)
+        self.input.classes("field").mark(f"{key.group}%{key.name}")
+        self.input.props("dense outlined stack-label hide-bottom-space")
+        self.input.props["placeholder"] = self.default
+        self.input.props["data-key"] = f"{key.group}%{key.name}"
+        self.show_messages(())
+        self.mark_unset()
+
+    @property
+    def default(self):
+        """The default, as the program has it."""
+        return self.key.default.replace("`", "")
+
+    def options(self, value):
+        """The words there are, and one that is none where the case has it."""
+        shown = self.key.shown(value)
+        return {"": f"({self.default})"} | {word: word for word in (*self.key.choices, *[shown]*bool(shown))}
+
+    def typed(self, event):
+        """The user has changed it."""
+        words = event.value or ""
+        if words == self.key.shown(self.value):
+            return
+        value = self.key.typed(words)
+        if value != self.value:
+            self.value = value
+            self.mark_unset()
+            self.change(self.key, value)
+
+    def mark_unset(self):
+        """Shows whether this is the case's own value, or the default."""
+        self.input.classes(add="unset" if self.value is None else None, remove=None if self.value is None else "unset")
+
+    def tidy(self):
+        """Writes the number as it is shown, once the field is left."""
+        self.input.set_value(self.key.shown(self.value))
+
+    def show(self, value):
+        """The value of the case, unless it is what stands here."""
+        if value != self.value:
+            self.value = value
+            self.mark_unset()
+            if self.key.choices:
+                self.input.set_options(self.options(value), value=self.key.shown(value))
+            else:
+                self.input.set_value(self.key.shown(value))
+
+    def show_messages(self, messages):
+        """What the program says of it, otherwise what it means."""
+        self.messages = messages
+        wrong = [one.words for one in messages if not one.is_warning]
+        self.input.props["hint"] = "; ".join(f"warning: {one.words}" for one in messages) if messages and not wrong else self.key.meaning.replace("`", "")
+        self.input.props["error"] = bool(wrong)
+        self.input.props["error-message"] = "; ".join(wrong)
+        self.input.classes(add="warned-field" if messages and not wrong else None,
+                           remove=None if messages and not wrong else "warned-field")
+
+
+class Group:
+    """A group of keys; its fields are made when it is opened first."""
+
+    def __init__(self, name, keys, change, leave_out):
+        self.name, self.keys, self.change, self.leave_out = name, keys, change, leave_out
+        self.fields, self.values, self.messages, self.is_given = {}, {}, (), False
+        self.box = ui.expansion(f"&{name}", caption=NOT_GIVEN, on_value_change=self.opened).classes("group").mark(f"group {name}")
+        self.box.props["data-group"] = name
+
+    def opened(self, event):
+        """Makes the fields."""
+        if event.value and not self.fields:
+            with self.box:
+                self.words = ui.column().classes("said")
+                with ui.element("div").classes("fields"):
+                    self.fields = {name: Field(key, self.values.get(name), self.change) for name, key in self.keys.items()}
+                self.out = ui.button(f"leave &{self.name} out", on_click=lambda: self.leave_out(self.name)).props("flat dense no-caps")
+                self.out.set_visibility(self.is_given)
+            self.show_messages(self.messages)
+
+    def show(self, values):
+        """The values of the case; None: it has not got this group."""
+        begins, self.is_given = values is not None and not self.is_given, values is not None
+        self.values = values or {}
+        for name, field in self.fields.items():
+            field.show(self.values.get(name))
+        if self.fields:
+            self.out.set_visibility(self.is_given)
+        if begins:
+            self.box.open()
+        self.caption()
+
+    def caption(self):
+        """What stands beside its name."""
+        mistakes = sum(not one.is_warning for one in self.messages)
+        words = f"{len(self.messages)} to look at" if self.messages else GIVEN if self.is_given else NOT_GIVEN
+        self.box.props["caption"] = words
+        self.box.props["header-class"] = "bad" if mistakes else "warning" if self.messages else "" if self.is_given else "absent"
+
+    def show_messages(self, messages):
+        """Those of this group: at their fields, otherwise above them."""
+        self.messages = tuple(messages)
+        self.caption()
+        if not self.fields:
+            return
+        for name, field in self.fields.items():
+            own = tuple(one for one in self.messages if one.key == name)
+            if own != field.messages:
+                field.show_messages(own)
+        self.words.clear()
+        with self.words:
+            for one in self.messages:
+                if one.key not in self.fields:
+                    ui.label(one.words).classes("warning" if one.is_warning else "mistake")
+
+    def look_for(self, words):
+        """Shows the fields that are looked for, all where nothing is."""
+        found = [name for name, key in self.keys.items() if all(one in f"{self.name} {name} {key.meaning}".lower() for one in words)]
+        self.box.set_visibility(bool(found))
+        if words and found:
+            self.box.open()
+        for name, field in self.fields.items():
+            field.input.set_visibility(name in found)
+
+
+class Form:
+    """All groups."""
+
+    def __init__(self, keys, change, leave_out):
+        self.keys, self.change, self.leave_out, self.groups = keys, change, leave_out, {}
+
+    def build(self):
+        """Makes it."""
+        ui.input("find a key", on_change=lambda event: self.look_for(event.value or "")).props(f"clearable dense debounce={WAIT}") \
+            .classes("wide").mark("find")
+        for name, keys in self.keys.items():
+            self.groups[name] = Group(name, keys, self.change, self.leave_out)
+
+    def show(self, case):
+        """The values of a case."""
+        for name, group in self.groups.items():
+            group.show(case.groups.get(name))
+
+    def show_messages(self, messages):
+        """What the program says of the case."""
+        for name, group in self.groups.items():
+            group.show_messages([one for one in messages if one.group == name])
+
+    def look_for(self, words):
+        """Leaves what has these words in its name or meaning."""
+        for group in self.groups.values():
+            group.look_for(words.lower().split())

@@ -1,0 +1,288 @@
+"""What stands on the page: the case as a form and as text, runs, results."""
+
+import asyncio
+import pathlib
+
+from nicegui import app, background_tasks, ui
+
+from gfb.case import Case, CaseError
+from gfb.namelist import namelist_value
+from gfb.studio.checking import check
+from gfb.studio.form import Form
+from gfb.studio.keys import read_keys
+from gfb.studio.results import ResultsView
+from gfb.studio.runs import CASE, Folder, Refused, Runs
+from gfb.studio.text import with_value, without_group
+
+PAUSE = 0.3   # s without a change until what was typed is taken over and checked
+TICK = 0.5    # s between two looks at the runs
+MOST_SAID = 50  # messages that are shown
+EMPTY = "&scene\n  title = ''\n/\n"
+
+
+def make_page(folder, gfb):
+    """Prepares the page of a folder and a program."""
+    place, keys = Folder(folder), read_keys(gfb)
+    runs = Runs(place, gfb)
+
+    @ui.page("/")
+    async def page(case: str = ""):
+        tab = Tab(place, keys, runs, gfb)
+        tab.build()
+        await ui.context.client.connected()
+        tab.begin(app.storage.tab, case)
+
+
+class Tab:
+    """One tab of a browser; what is in it is its own, but for runs and files."""
+
+    def __init__(self, folder, keys, runs, gfb):
+        self.folder, self.runs, self.gfb = folder, runs, gfb
+        self.keys = keys
+        self.text, self.known = "", None  # known: what the case file holds that was opened or saved here
+        self.kept = {}                    # outlives a reload of the tab
+        self.judged = None
+        self.changes = 0
+        self.rows = {}                    # of the runs
+
+    # --- what is seen ---
+
+    def build(self):
+        """All of the page."""
+        ui.colors(primary="#2b4a6f")
+        ui.add_css(pathlib.Path(__file__).with_name("page.css"))
+        with ui.header().classes("top"):
+            ui.label("gfb studio").classes("brand")
+            with ui.tabs() as tabs:
+                case, runs, results = (ui.tab(name) for name in ("Case", "Runs", "Results"))
+        self.tabs = tabs
+        with ui.tab_panels(tabs, value=case, animated=False, keep_alive=True).props("keep-alive-exclude=Results").classes("panels"):
+            with ui.tab_panel(case):
+                self.build_case()
+            with ui.tab_panel(runs):
+                self.nothing = ui.label("Nothing has run yet: press Run beside the case.")
+                self.list = ui.column().classes("wide")
+            with ui.tab_panel(results):
+                self.results = ResultsView(self.folder)
+                self.results.build()
+        ui.plotly({"data": []}).classes("ahead")  # loads Plotly, so that no picture is left while that is under way
+        ui.timer(TICK, self.look_at_runs)
+
+    def build_case(self):
+        """Buttons, messages, form and text."""
+        with ui.row().classes("bar"):
+            self.opening = ui.select([], label="open a case", on_change=self.open_chosen).classes("chooser").mark("open")
+            self.name = ui.input("name", value="case").classes("name").mark("name")
+            ui.button("Save", on_click=self.save).props("outline")
+            ui.button("Run", icon="play_arrow", on_click=self.run).mark("run")
+        self.verdict = ui.label("").classes("verdict")
+        self.said = ui.column().classes("said")
+        with ui.element("div").classes("two"):
+            with ui.column().classes("side"):
+                self.form = Form(self.keys, self.set_value, self.leave_out)
+                self.form.build()
+            with ui.column().classes("side follows"):
+                self.editor = ui.codemirror("", language="Fortran", line_wrapping=False, on_change=self.text_typed).classes("text")
+                with ui.expansion("what the scene needs").classes("wide"):
+                    self.needs = ui.label("").classes("log")
+
+    def begin(self, kept, case):
+        """Fills the page: with what this tab had before it was loaded again, a case of the folder, or the program's first example."""
+        self.kept = kept
+        self.list_cases()
+        if case:
+            self.open(case)
+        elif "text" in kept:
+            self.known, self.name.value = kept["known"], kept["name"]
+            self.take(kept["text"])
+        else:
+            self.template("equilibrium")
+
+    # --- files ---
+
+    def list_cases(self):
+        """The case files of the folder, and the program's own examples, as the program names them."""
+        analyses = [*self.keys["scene"]["analysis"].choices, *(word for word in self.keys["bearing"]["kind"].choices if word == "thrust")]
+        options = {name: name for name in self.folder.cases()} | {f"template {one}": f"new: {one.replace('_', ' ')}" for one in analyses}
+        self.opening.set_options(options, value=None)
+
+    def open_chosen(self, event):
+        """Opens what was chosen from the list."""
+        if not event.value:
+            return
+        first, _, analysis = event.value.partition(" ")
+        if first == "template":
+            self.template(analysis)
+        else:
+            self.open(event.value)
+        self.list_cases()
+
+    def template(self, analysis):
+        """A case of the program's own."""
+        try:
+            text = str(Case.template(analysis, self.gfb))
+        except CaseError as error:
+            return complain(error)
+        self.known, self.name.value = None, analysis
+        self.take(text)
+
+    def open(self, name):
+        """A case file of the folder."""
+        try:
+            text = self.folder.read(name)
+        except (Refused, OSError) as error:
+            complain(error)
+            return self.take(self.text or EMPTY)
+        self.known, self.name.value = text, name.removesuffix(CASE)
+        self.take(text)
+
+    def save(self):
+        """Writes the case file."""
+        try:
+            self.folder.write(self.name.value, self.text, self.known)
+        except (Refused, OSError) as error:
+            return complain(error)
+        self.known = self.text
+        self.remember()
+        self.list_cases()
+        ui.notify(f"{self.name.value}{CASE} is written", type="positive")
+
+    def remember(self):
+        """Keeps what would be lost where the tab is loaded again."""
+        self.kept.update(text=self.text, known=self.known, name=self.name.value)
+
+    # --- form and text ---
+
+    def take(self, text):
+        """A new text, from somewhere else than the editor."""
+        self.text = text
+        self.editor.set_value(text)
+        self.follow()
+
+    def text_typed(self, event):
+        """The text was changed in the editor."""
+        if event.value != self.text:
+            self.text = event.value
+            self.follow()
+
+    def set_value(self, key, value):
+        """A field was changed in the form."""
+        self.take(with_value(self.text, key.group, key.name, None if value is None else namelist_value(value)))
+
+    def leave_out(self, group):
+        """A group was taken out in the form."""
+        self.take(without_group(self.text, group))
+
+    def follow(self):
+        """Form and messages follow the text, once nothing more is typed."""
+        self.changes += 1
+        background_tasks.create(self.follow_soon(self.changes), name="check")
+
+    async def follow_soon(self, change):
+        await asyncio.sleep(PAUSE)
+        if change != self.changes:
+            return
+        self.remember()
+        try:
+            self.form.show(Case.parse(self.text))
+        except CaseError:
+            pass  # the program says what is wrong with it
+        judged = await check(self.gfb, self.text, self.folder.path)
+        if change == self.changes:
+            self.judged = judged
+            self.show_judged(judged)
+
+    def show_judged(self, judged):
+        """Messages: all of them above, each at its field, and at its line."""
+        mistakes = sum(not one.is_warning for one in judged.messages)
+        warnings = len(judged.messages) - mistakes
+        words = [counted(mistakes, "mistake")]*bool(mistakes) + [counted(warnings, "warning")]*bool(warnings)
+        self.verdict.set_text(", ".join(words) if mistakes else ": ".join(["in order", *words]))
+        self.verdict.classes(replace="verdict " + ("bad" if mistakes else "good"))
+        self.said.clear()
+        with self.said:
+            for one in judged.messages[:MOST_SAID]:
+                ui.label(str(one)).classes("warning" if one.is_warning else "mistake")
+            if len(judged.messages) > MOST_SAID:
+                ui.label(f"... and {len(judged.messages) - MOST_SAID} more")
+        self.form.show_messages(judged.messages)
+        lines = len(self.text.splitlines())
+        self.editor.decorations = [{"kind": "line", "line": one.line, "class": "warned" if one.is_warning else "wrong"}
+                                   for one in judged.messages if 0 < one.line <= lines]
+        self.needs.set_text(judged.needs or "the case has mistakes")
+
+    # --- runs ---
+
+    async def run(self):
+        """Runs the case as it stands in the text."""
+        text, name = self.text, self.name.value
+        if not (await check(self.gfb, text, self.folder.path)).is_right:
+            return complain("the case has mistakes: they stand above the form")
+        try:
+            await self.runs.start(name, text)
+        except (Refused, OSError) as error:
+            return complain(error)
+        self.tabs.set_value("Runs")
+
+    def look_at_runs(self):
+        """Shows how runs stand; those of other tabs, too."""
+        self.nothing.set_visibility(not self.runs.all)
+        for run in self.runs.all:
+            if run not in self.rows:
+                with self.list:
+                    self.rows[run] = Row(run, self.runs, self.show_result)
+                self.rows[run].card.move(target_index=0)
+            self.rows[run].follow()
+
+    async def show_result(self, run):
+        """Shows the results of a run beside those that are shown."""
+        self.tabs.set_value("Results")
+        await self.results.add(str(run.stem.relative_to(self.folder.path)))
+
+
+class Row:
+    """What is shown of a run."""
+
+    def __init__(self, run, runs, show_result):
+        self.run, self.said, self.is_over = run, 0, False
+        with ui.card().classes("wide") as self.card:
+            with ui.row().classes("bar"):
+                ui.label(run.folder.name).classes("brand")
+                self.state = ui.label("").classes("state")
+                self.stop = ui.button("Stop", icon="stop", on_click=lambda: runs.end(run)).props("outline")
+                self.show = ui.button("Show results", on_click=lambda: show_result(run))
+                self.show.set_visibility(False)
+            self.bar = ui.linear_progress(show_value=False).props("indeterminate")
+            self.last = ui.label("").classes("log")
+            with ui.expansion("all that it said").classes("wide"):
+                self.log = ui.log(max_lines=2000).classes("log")
+
+    def follow(self):
+        """Brings it up to date."""
+        run = self.run
+        if self.is_over:
+            return
+        self.is_over = run.status is not None
+        self.state.set_text(f"{run.words}, {run.seconds:.1f} s")
+        first = max(0, self.said - run.left_out)
+        for line in run.lines[first:]:
+            self.log.push(line)
+        self.said = run.left_out + len(run.lines)
+        self.last.set_text(next((line for line in reversed(run.lines) if line.strip()), ""))
+        if run.part is not None:
+            self.bar.props(remove="indeterminate")
+            self.bar.set_value(run.part)
+        if self.is_over:
+            self.bar.set_visibility(False)
+            self.stop.set_visibility(False)
+            self.show.set_visibility(run.stem is not None)
+
+
+def complain(error):
+    """Says what went wrong."""
+    ui.notify(str(error), type="negative", multi_line=True)
+
+
+def counted(number, word):
+    """So many of something."""
+    return f"{number} {word}{'s' if number != 1 else ''}"

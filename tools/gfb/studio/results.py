@@ -1,0 +1,174 @@
+"""Results side by side: answers first, pictures that can be turned, all names, and the keys in which the cases differ."""
+
+from nicegui import run as workers
+from nicegui import ui
+
+from gfb.report.main import PAGE, answer_rows, key_rows, read_run
+from gfb.results import Unreadable
+from gfb.studio import pictures
+from gfb.studio.runs import RESULT, Refused
+
+MOST = 6  # results side by side
+
+
+class ResultsView:
+    """What is shown of the results that are chosen."""
+
+    def __init__(self, folder):
+        self.folder, self.shown, self.found = folder, [], {}
+
+    def build(self):
+        """Chooser, and room for the rest."""
+        with ui.row().classes("bar"):
+            self.chooser = ui.select([], label="results, several side by side", multiple=True, on_change=self.chosen) \
+                .props("use-chips").classes("chooser wide").mark("results").on("popup-show", self.list)
+        self.room = ui.column().classes("wide")
+        self.list()
+
+    def list(self):
+        """The results that there are."""
+        there = self.folder.results()
+        options = list(dict.fromkeys([*there, *self.chooser.value]))
+        if options != self.chooser.options:
+            self.chooser.set_options(options)
+
+    async def add(self, name):
+        """Shows one more."""
+        self.list()
+        if name in self.chooser.options and name not in self.chooser.value:
+            self.chooser.set_value([*self.chooser.value, name][-MOST:])
+
+    async def chosen(self, event):
+        """Reads what was chosen and shows it."""
+        names = list(event.value)
+        if len(names) > MOST:
+            return self.chooser.set_value(names[-MOST:])
+        if names == self.shown:
+            return
+        self.shown, read = names, {}
+        for name in names:
+            try:
+                read[name] = self.found.get(name) or await workers.io_bound(read_one, self.folder.inside(name + RESULT), name)
+            except (Refused, Unreadable, OSError) as error:
+                ui.notify(str(error), type="negative", multi_line=True)
+        if names == self.shown:  # not chosen anew meanwhile
+            self.found = read
+            self.show()
+
+    # --- what is shown ---
+
+    def show(self):
+        """All of it."""
+        self.room.clear()
+        if not self.found:
+            return
+        runs = list(self.found.values())
+        with self.room:
+            with ui.element("div").classes("beside"):
+                for number, run in enumerate(runs):
+                    show_answer(run, number)
+            self.show_pictures(runs)
+            with ui.expansion("what of the cases differs", value=len(runs) > 1).classes("wide"):
+                table_of([{"name": row["name"], "unit": "", "values": row["values"]} for row in key_rows(runs) if row["differs"]], runs, "key")
+            with ui.expansion("all results by name").classes("wide"):
+                table_of(answer_rows(runs), runs, "name", meaning=True)
+
+    def show_pictures(self, runs):
+        """One kind of picture of all results, and the chooser of it."""
+        there = list(dict.fromkeys(name for run in runs for name in run["pictures"]))
+        if not there:
+            return
+        first = next((name for name in (pictures.POINTS_PICTURE, "film: pressure") if name in there), there[0])
+        with ui.row().classes("bar"):
+            kind = ui.select(there, label="picture", value=first, on_change=lambda event: self.draw(event.value)).classes("chooser").mark("picture")
+        self.drawn = ui.element("div").classes("wide")
+        self.kind = kind
+        ui.timer(0.0, lambda: self.draw(kind.value), once=True)
+
+    async def draw(self, name):
+        """Draws it of all that have it."""
+        runs = list(self.found.values())
+        if name == pictures.POINTS_PICTURE:
+            self.drawn.clear()
+            with self.drawn:
+                return show_points(runs)
+        figures = [(run, await workers.io_bound(pictures.draw, run["stem"], name)) for run in runs if name in run["pictures"]]
+        if name != self.kind.value:
+            return
+        same_colours([figure for _, figure in figures if figure])
+        self.drawn.clear()
+        with self.drawn, ui.element("div").classes("beside"):
+            for run, figure in figures:
+                with ui.card().classes("result"):
+                    ui.label(run["name"]).classes("brand")
+                    if figure:
+                        ui.plotly(figure).classes("wide")
+                    else:
+                        ui.label("cannot be drawn of this result")
+
+
+def read_one(path, name):
+    """A result, as the page of tools/report has it, and its pictures."""
+    stem = str(path).removesuffix(RESULT)
+    run = read_run(path.with_name(path.name.removesuffix(RESULT)), None, pictures=False)
+    return run | {"stem": stem, "name": name, "pictures": pictures.pictures(stem), "columns": pictures.columns_of(stem)}
+
+
+def show_answer(run, number):
+    """What one asks first."""
+    with ui.card().classes("result"):
+        ui.label(run["name"]).classes("brand")
+        ui.label(str(run["title"]))
+        if not run["converged"]:
+            ui.label("No answer was found: the numbers are those of the last state reached.").classes("mistake")
+        elif run["rows"]:
+            ui.label("Of the last point or load step.")
+        with ui.element("div").classes("glance"):
+            if run["sketch"]:
+                ui.html(PAGE.get_template("sketch.html").render(run=run, number=number), sanitize=False).classes("sketch")
+            with ui.element("div").classes("answers"):
+                for words, value, verdict, is_bad in run["glance"]:
+                    ui.label(words)
+                    with ui.element("div"):
+                        ui.label(value).classes("value")
+                        ui.label(verdict).classes("mistake" if is_bad else "verdict")
+
+
+def table_of(rows, runs, first, meaning=False):
+    """A table with a column a result, and a field that looks for rows."""
+    if not rows:
+        ui.label("nothing")
+        return
+    sides = [{"name": "name", "label": first, "field": "name", "align": "left", "sortable": True}]
+    sides += [{"name": f"v{i}", "label": run["name"], "field": f"v{i}", "align": "right"} for i, run in enumerate(runs)]
+    sides += [{"name": one, "label": one, "field": one, "align": "left"} for one in (("unit", "meaning") if meaning else ())]
+    lines = [{"name": row["name"], "unit": row["unit"] if row["unit"] != "1" else "", "meaning": row.get("meaning", "")}
+             | {f"v{i}": value for i, value in enumerate(row["values"])} for row in rows]
+    looked_for = ui.input("find").props("dense clearable")
+    ui.table(rows=lines, columns=sides, row_key="name", pagination=0).props("dense flat wrap-cells").classes("wide") \
+        .bind_filter_from(looked_for, "value", lambda words: words or "")
+
+
+def show_points(runs):
+    """Values over each other, along points or time."""
+    columns = list(dict.fromkeys(name for run in runs for name in run["columns"][0]))
+    if len(columns) < 2:
+        return
+
+    def redraw():
+        shown.update_figure(pictures.curves([(run["name"], *run["columns"]) for run in runs], x.value, y.value))
+
+    with ui.row().classes("bar"):
+        y = ui.select(columns, label="up", value="minimum_gap" if "minimum_gap" in columns[1:] else columns[1], on_change=redraw)
+        x = ui.select(columns, label="across", value=columns[0], on_change=redraw)
+    shown = ui.plotly({"data": [], "layout": {}}).classes("wide")
+    redraw()
+
+
+def same_colours(figures):
+    """One range of colours for what stands side by side."""
+    surfaces = [one for figure in figures for one in figure["data"]]
+    if surfaces:
+        low, high = min(one["cmin"] for one in surfaces), max(one["cmax"] for one in surfaces)
+        for one in surfaces:
+            one["cmin"], one["cmax"] = low, high
