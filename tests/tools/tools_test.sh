@@ -107,6 +107,14 @@ expect 3 'Error: no such variable' 'a build that fails shows the error'
 expect 3 'FAILED: film.o' 'a build that fails shows nothing else'
 rm -- "$scratch/broken"
 
+# --- tools/studio ---
+call "$copy/tools/studio" --install
+expect 3 'tools/studio --install puts it there' 'installs nothing where nothing is to be installed'
+GFB_INSTALL=yes PIP_NO_INDEX=1 PIP_FIND_LINKS='' call bash -c 'source "$1/tools/setup.sh"; need_studio_venv' bash "$copy"
+expect 3 'pip failed, which needs the network this once' 'says what is missing without a network'
+[[ ! -e $copy/build/studio_venv/installed.txt ]] || status=half-a-library
+expect 3 'installing in build/studio_venv' 'and the next start tries again'
+
 # --- tools/check_petsc ---
 for wrong in '--version 3.26' '--version newest' '--jobs 0' '--folder' ''; do # its own folder has a blank here
   # shellcheck disable=SC2086 # several words

@@ -51,10 +51,10 @@ def read_messages(said):
     return tuple(messages)
 
 
-async def check(gfb, text, folder):
-    """Has the program check a text; files that it names are looked for in the folder."""
+async def check(gfb, text):
+    """Has the program check a text; not where a .petscrc may lie that is not the user's own."""
     process = await asyncio.create_subprocess_exec(gfb, "--check", "-", stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
-                                                   stderr=asyncio.subprocess.PIPE, cwd=folder)
+                                                   stderr=asyncio.subprocess.PIPE, cwd="/")
     try:
         said, complaint = await asyncio.wait_for(process.communicate(text.encode()), SECONDS)
     except asyncio.TimeoutError:

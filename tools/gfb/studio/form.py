@@ -2,6 +2,8 @@
 
 from nicegui import ui
 
+from gfb.tables import READABLE, TYPED
+
 GIVEN, NOT_GIVEN = "", "not in the case"
 WAIT = 400  # ms without a key stroke until a field is taken over
 
@@ -148,6 +150,8 @@ class Form:
         """Makes it."""
         ui.input("find a key", on_change=lambda event: self.look_for(event.value or "")).props(f"clearable dense debounce={WAIT}") \
             .classes("wide").mark("find")
+        others = ", ".join(unit for table in (TYPED, READABLE) for unit, _ in table.values())
+        ui.label(f"A number without a unit is in that of its label; also {others} may be typed.").classes("remark")
         for name, keys in self.keys.items():
             self.groups[name] = Group(name, keys, self.change, self.leave_out)
 

@@ -19,37 +19,7 @@ from gfb.case import program
 from gfb.tool import draw_into_files, stop
 
 HOST = "127.0.0.1"
-POLICY = ("default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'; connect-src 'self'; form-action 'none'; base-uri 'none'; "
-          "object-src 'none'; frame-ancestors 'none'")  # the library's own scripts, and nothing from anywhere else
-HEADERS = {"Content-Security-Policy": POLICY, "Referrer-Policy": "no-referrer", "X-Content-Type-Options": "nosniff",
-           "Cross-Origin-Resource-Policy": "same-origin", "Cross-Origin-Opener-Policy": "same-origin"}
 GOODBYE = 2  # s for what is still being sent
-
-
-class Guard:
-    """Lets through what was asked of this address, by this page or by nobody else's; websockets, too."""
-
-    def __init__(self, app, port):
-        self.app, self.hosts = app, {f"{HOST}:{port}", f"localhost:{port}"}
-
-    async def __call__(self, scope, receive, send):
-        from starlette.datastructures import Headers
-        from starlette.responses import PlainTextResponse
-        if scope["type"] not in ("http", "websocket"):
-            return await self.app(scope, receive, send)
-        headers = Headers(scope=scope)
-        host, origin = headers.get("host", ""), headers.get("origin")
-        if host not in self.hosts or origin not in (None, f"http://{host}"):
-            if scope["type"] == "websocket":
-                return await send({"type": "websocket.close", "code": 1008})
-            return await PlainTextResponse("refused: asked by another page or for another machine\n", 403)(scope, receive, send)
-
-        async def send_with_headers(message):
-            if message["type"] == "http.response.start":
-                message["headers"] = [*message["headers"], *((name.lower().encode(), words.encode()) for name, words in HEADERS.items())]
-            await send(message)
-
-        return await self.app(scope, receive, send_with_headers)
 
 
 def main():
@@ -86,13 +56,14 @@ def serve(door, folder, gfb):
     from fastapi import FastAPI
     from nicegui import ui
 
+    from gfb.studio.gate import Guard
     from gfb.studio.page import make_page
 
     token, port = secrets.token_urlsafe(24), door.getsockname()[1]
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     make_page(folder, gfb)
     ui.run_with(app, mount_path=f"/{token}", title="gfb studio", tailwind=False, show_welcome_message=False, reconnect_timeout=30.0)
-    server = uvicorn.Server(uvicorn.Config(Guard(app, port), loop="asyncio", log_level="warning", timeout_graceful_shutdown=GOODBYE,
+    server = uvicorn.Server(uvicorn.Config(Guard(app, {f"{HOST}:{port}", f"localhost:{port}"}), loop="asyncio", log_level="warning", timeout_graceful_shutdown=GOODBYE,
                                            lifespan="on", server_header=False, ws_max_size=2**24))
     print(f"gfb studio: http://{HOST}:{port}/{token}/", flush=True)
     print(f"cases and runs are in {folder.resolve()}; Ctrl-C ends it, and the runs that it began", flush=True)

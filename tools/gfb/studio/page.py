@@ -17,6 +17,10 @@ from gfb.studio.text import with_value, without_group
 PAUSE = 0.3   # s without a change until what was typed is taken over and checked
 TICK = 0.5    # s between two looks at the runs
 MOST_SAID = 50  # messages that are shown
+# A picture that is left while it is drawn has no size, which Plotly complains about and NiceGUI does not listen to.
+LEFT = """<script>addEventListener("unhandledrejection", (event) => {
+  if (String(event.reason).includes("Resize must be passed a displayed plot div")) event.preventDefault();
+});</script>"""
 EMPTY = "&scene\n  title = ''\n/\n"
 
 
@@ -40,6 +44,7 @@ class Tab:
         self.folder, self.runs, self.gfb = folder, runs, gfb
         self.keys = keys
         self.text, self.known = "", None  # known: what the case file holds that was opened or saved here
+        self.untouched = None             # the program's example as it came
         self.kept = {}                    # outlives a reload of the tab
         self.judged = None
         self.changes = 0
@@ -49,6 +54,7 @@ class Tab:
 
     def build(self):
         """All of the page."""
+        ui.add_head_html(LEFT)
         ui.colors(primary="#2b4a6f")
         ui.add_css(pathlib.Path(__file__).with_name("page.css"))
         with ui.header().classes("top"):
@@ -65,7 +71,6 @@ class Tab:
             with ui.tab_panel(results):
                 self.results = ResultsView(self.folder)
                 self.results.build()
-        ui.plotly({"data": []}).classes("ahead")  # loads Plotly, so that no picture is left while that is under way
         ui.timer(TICK, self.look_at_runs)
 
     def build_case(self):
@@ -90,7 +95,8 @@ class Tab:
         """Fills the page: with what this tab had before it was loaded again, a case of the folder, or the program's first example."""
         self.kept = kept
         self.list_cases()
-        if case:
+        if case and kept.get("asked") != case:
+            kept["asked"] = case
             self.open(case)
         elif "text" in kept:
             self.known, self.name.value = kept["known"], kept["name"]
@@ -106,10 +112,12 @@ class Tab:
         options = {name: name for name in self.folder.cases()} | {f"template {one}": f"new: {one.replace('_', ' ')}" for one in analyses}
         self.opening.set_options(options, value=None)
 
-    def open_chosen(self, event):
+    async def open_chosen(self, event):
         """Opens what was chosen from the list."""
         if not event.value:
             return
+        if self.text not in (self.known, self.untouched) and not await self.may_replace():
+            return self.list_cases()
         first, _, analysis = event.value.partition(" ")
         if first == "template":
             self.template(analysis)
@@ -117,13 +125,22 @@ class Tab:
             self.open(event.value)
         self.list_cases()
 
+    async def may_replace(self):
+        """Asks before what was not saved is lost."""
+        with ui.dialog() as dialog, ui.card():
+            ui.label(f"{self.name.value} has changes that are not saved.")
+            with ui.row():
+                ui.button("Keep it", on_click=lambda: dialog.submit(False))
+                ui.button("Replace it", on_click=lambda: dialog.submit(True)).props("outline")
+        return await dialog
+
     def template(self, analysis):
         """A case of the program's own."""
         try:
             text = str(Case.template(analysis, self.gfb))
         except CaseError as error:
             return complain(error)
-        self.known, self.name.value = None, analysis
+        self.known, self.untouched, self.name.value = None, text, analysis
         self.take(text)
 
     def open(self, name):
@@ -187,7 +204,7 @@ class Tab:
             self.form.show(Case.parse(self.text))
         except CaseError:
             pass  # the program says what is wrong with it
-        judged = await check(self.gfb, self.text, self.folder.path)
+        judged = await check(self.gfb, self.text)
         if change == self.changes:
             self.judged = judged
             self.show_judged(judged)
@@ -216,7 +233,7 @@ class Tab:
     async def run(self):
         """Runs the case as it stands in the text."""
         text, name = self.text, self.name.value
-        if not (await check(self.gfb, text, self.folder.path)).is_right:
+        if not (await check(self.gfb, text)).is_right:
             return complain("the case has mistakes: they stand above the form")
         try:
             await self.runs.start(name, text)

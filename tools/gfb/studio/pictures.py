@@ -9,6 +9,7 @@ import numpy
 from gfb.plot.foil import is_foil, names, round_scale, shape_of
 from gfb.plot.ring import TRAVEL
 from gfb.plot.rolled import drawn_larger, paths_of, read_shaft, read_surface
+from gfb.plot.scene import scene_of
 from gfb.reading import surface
 from gfb.results import attribute, open_results, reading
 from gfb.tables import READABLE
@@ -18,7 +19,7 @@ POINTS = 5000  # of a curve
 LOOK = {"margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "font": {"size": 11}, "modebar": {"bgcolor": "white", "color": "#aaa"}}
 EYE = {"x": 1.35, "y": -1.75, "z": 1.05}  # from where a surface is seen, its sides being about 1
 MODES = {"responsive": True, "displaylogo": False}
-POINTS_PICTURE, FOILS = "points", "foils"
+POINTS_PICTURE, FOILS, POINT = "points", "foils", "number of the point or step"
 
 
 def pictures(stem):
@@ -81,14 +82,14 @@ def sheet(x, y, z, colour, words, **looks):
     every = tuple(slice(None, None, max(1, -(-side//MOST))) for side in numpy.shape(z))
     x, y, z, colour = (numpy.ascontiguousarray(one[every], dtype="float32") for one in (x, y, z, colour))
     return {"type": "surface", "x": x, "y": y, "z": z, "surfacecolor": colour, "hovertemplate": looks.pop("hover", None),
-            "colorbar": {"title": {"text": words, "side": "right"}, "thickness": 12, "len": 0.7}, **looks}
+            "colorbar": {"title": {"text": words, "side": "top"}, "orientation": "h", "thickness": 10, "len": 0.8, "y": 0.0, "yanchor": "top"}, **looks}
 
 
-def space(data, x, y, z, sides=None):
-    """A figure in space."""
+def space(data, x, y, z, sides=None, near=1.0, above=""):
+    """A figure in space; near: how far from it the eye is, 1 leaves room for words at the axes; above: words about it."""
     shape = {"aspectmode": "manual", "aspectratio": dict(zip("xyz", sides))} if sides else {"aspectmode": "data"}
     axes = {f"{axis}axis": {"title": {"text": words}, "visible": bool(words)} for axis, words in zip("xyz", (x, y, z))}
-    return {"data": data, "layout": {**LOOK, "scene": {**axes, **shape, "camera": {"eye": EYE}}, "height": 420}, "config": MODES}
+    return {"data": data, "layout": {**LOOK, "scene": {**axes, **shape, "camera": {"eye": {axis: near*one for axis, one in EYE.items()}}}, "height": 460}, "config": MODES, "above": above}
 
 
 # --- films ---
@@ -116,7 +117,7 @@ def film(stem, name):
         else:
             x, y, hover = numpy.degrees(angle), side, f"theta %{{x:.4g}} deg, z %{{y:.4g}} mm<br>%{{z:.5g}} {unit}<extra></extra>"
         data.append(sheet(x, y, values[own], values[own], words, hover=hover, showscale=not data, **looks))
-    return space(data, "x [mm]" if ring else "theta [deg]", "y [mm]" if ring else "z [mm]", words, (1.2, 1.2, 0.6) if ring else (1.6, 1.0, 0.7))
+    return space(data, "x [mm]" if ring else "theta [deg]", "y [mm]" if ring else "z [mm]", words, (1.2, 1.2, 0.6) if ring else (1.6, 1.0, 0.7), near=1.1)
 
 
 # --- foils ---
@@ -137,10 +138,9 @@ def foils(stem):
     for foil, place in zip(found, places):
         for numbers in foil.sheets():
             x, y, z = (1.0e3*place[numbers, axis] for axis in (2, 0, 1))
-            data.append(sheet(x, y, z, away[foil.name][numbers], "away from the shaft [um]", colorscale="RdBu", reversescale=True, cmin=-far,
+            data.append(sheet(x, y, z, away[foil.name][numbers], "away from the shaft [um]", colorscale="RdBu", cmin=-far,
                               cmax=far, showscale=not data, hover=f"{foil.name.replace('_', ' ')}<br>%{{surfacecolor:.4g}} um<extra></extra>"))
-    figure = space(data, "", "", "")
-    return titled(figure, f"displacements x {travel:g}, heights off the shaft x {taller:g}")
+    return space(data, "", "", "", near=0.9, above=f"displacements x {travel:g}, heights off the shaft x {taller:g}")
 
 
 def is_journal(path):
@@ -180,28 +180,29 @@ def lying(paths, field):
         size = numpy.sqrt((moved**2).sum(axis=2))*(1.0 if is_mode else 1.0e6)
         data.append(sheet(x, y, z, size, words, colorscale="Viridis", showscale=not data, cmin=0.0, cmax=max(largest*(1.0 if is_mode else 1.0e6), 1e-12),
                           hover=f"{part.replace('_', ' ')}<br>%{{surfacecolor:.4g}}<extra></extra>"))
-    return titled(space(data, "x [mm]", "", ""), "" if is_mode else f"displacements x {scale:g}")
-
-
-def titled(figure, words):
-    """A figure with words above it."""
-    figure["layout"]["title"] = {"text": words, "font": {"size": 12}, "y": 0.98}
-    return figure
+    hertz = scene_of(paths[0]).frequencies.get(field)
+    words = f"{hertz:.5g} Hz" if hertz else "" if is_mode else f"displacements x {scale:g}"
+    return space(data, "x [mm]", "", "", above=words)
 
 
 # --- points ---
 
 def columns_of(stem):
-    """{column: values} and {column: unit} along points or load steps, of a shaft over time along that."""
+    """{column: values} and {column: unit} of points or load steps, of a shaft over time of that."""
     path = f"{stem}.h5"
     with reading(path), open_results(path) as file:
         group = file["transient"] if "transient" in file else file["history"]
         found = {name: data for name, data in group.items() if data.ndim == 1}
         most = max((len(data) for data in found.values()), default=0)
         found = {name: data for name, data in found.items() if len(data) == most}
-        first = [name for name in ("time",) if name in found] + [name for name in found if name not in file["summary"]]
-        order = list(dict.fromkeys([*first, *found]))
-        return {name: found[name][...] for name in order}, {name: attribute(found[name], "unit") for name in order}
+        values = {POINT: numpy.arange(1.0, most + 1.0)} | {name: data[...] for name, data in found.items()}
+        return values, {name: attribute(data, "unit") for name, data in found.items()}
+
+
+def along_of(columns, used):
+    """The column along which a result goes: time, what its sweep changes, or the number of the point."""
+    sweep = used.groups.get("sweep", {}).get("parameter", "")
+    return next((name for name in ("time", str(sweep), str(sweep).replace("%", "_")) if name in columns), POINT)
 
 
 def curves(runs, x, y):

@@ -68,7 +68,8 @@ class ResultsView:
                 for number, run in enumerate(runs):
                     show_answer(run, number)
             self.show_pictures(runs)
-            with ui.expansion("what of the cases differs", value=len(runs) > 1).classes("wide"):
+            if len(runs) > 1:
+                ui.label("What of the cases differs").classes("brand")
                 table_of([{"name": row["name"], "unit": "", "values": row["values"]} for row in key_rows(runs) if row["differs"]], runs, "key")
             with ui.expansion("all results by name").classes("wide"):
                 table_of(answer_rows(runs), runs, "name", meaning=True)
@@ -102,6 +103,7 @@ class ResultsView:
                 with ui.card().classes("result"):
                     ui.label(run["name"]).classes("brand")
                     if figure:
+                        ui.label(figure.pop("above")).classes("remark")
                         ui.plotly(figure).classes("wide")
                     else:
                         ui.label("cannot be drawn of this result")
@@ -151,16 +153,18 @@ def table_of(rows, runs, first, meaning=False):
 
 def show_points(runs):
     """Values over each other, along points or time."""
+    runs = [run for run in runs if pictures.POINTS_PICTURE in run["pictures"]]
     columns = list(dict.fromkeys(name for run in runs for name in run["columns"][0]))
-    if len(columns) < 2:
-        return
+    first = pictures.along_of(runs[0]["columns"][0], runs[0]["used"])
+    others = [name for name in columns if name not in (first, pictures.POINT)]
 
     def redraw():
         shown.update_figure(pictures.curves([(run["name"], *run["columns"]) for run in runs], x.value, y.value))
 
     with ui.row().classes("bar"):
-        y = ui.select(columns, label="up", value="minimum_gap" if "minimum_gap" in columns[1:] else columns[1], on_change=redraw)
-        x = ui.select(columns, label="across", value=columns[0], on_change=redraw)
+        y = ui.select(columns, label="up", value="minimum_gap" if "minimum_gap" in others else [*others, first][0],
+                      on_change=redraw)
+        x = ui.select(columns, label="across", value=first, on_change=redraw)
     shown = ui.plotly({"data": [], "layout": {}}).classes("wide")
     redraw()
 

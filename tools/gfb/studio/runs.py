@@ -165,9 +165,10 @@ class Runs:
         folder = self.folder.new_run(name)
         path = folder/(name + CASE)
         path.write_text(text, encoding="utf-8")
+        # In its own folder: a .petscrc that somebody has put beside the case is not read.
         process = await asyncio.create_subprocess_exec(
             *self.bound, *map(str, command_of(self.gfb, path, folder)), stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE,
-            stderr=asyncio.subprocess.STDOUT, cwd=self.folder.path, env={**ENVIRONMENT, **os.environ}, start_new_session=True)
+            stderr=asyncio.subprocess.STDOUT, cwd=folder, env={**ENVIRONMENT, **os.environ}, start_new_session=True)
         run = Run(name, folder, process)
         self.all.append(run)
         self.keep(self.follow(run))
