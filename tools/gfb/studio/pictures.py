@@ -133,12 +133,13 @@ def foils(stem):
         with reading(path), open_results(path) as file:
             surfaces.append(read_surface(name, file))
     found = [one for one in surfaces if one.kind != "film"]
-    places, away, far, (taller, travel) = drawn_larger(found, read_shaft(case, surfaces))
+    places, away, taller, travel = drawn_larger(found, read_shaft(case, surfaces))
+    far = max(float(one.max()) for one in away) or 1.0  # a free edge that lifts far would leave the rest without colour
     data = []
-    for foil, place in zip(found, places):
+    for foil, place, off in zip(found, places, away):
         for numbers in foil.sheets():
             x, y, z = (1.0e3*place[numbers, axis] for axis in (2, 0, 1))
-            data.append(sheet(x, y, z, away[foil.name][numbers], "away from the shaft [um]", colorscale="RdBu", cmin=-far,
+            data.append(sheet(x, y, z, off[numbers], "away from the shaft [um]", colorscale="RdBu", cmin=-far,
                               cmax=far, showscale=not data, hover=f"{foil.name.replace('_', ' ')}<br>%{{surfacecolor:.4g}} um<extra></extra>"))
     return space(data, "", "", "", near=0.9, above=f"displacements x {travel:g}, heights off the shaft x {taller:g}")
 
