@@ -43,16 +43,16 @@ contains
   end function unless
 
   !> Reads a key that has no use, where a reason says so: its echo must not show a value.
-  logical function has_no_use(self, name, meaning, why) result(useless)
+  logical function has_no_use(self, name, why) result(useless)
     class(case_keys_type), intent(inout) :: self
-    character(len=*), intent(in) :: name, meaning !! of the key; what it means
+    character(len=*), intent(in) :: name !! of the key, which was described
     character(len=*), intent(in), optional :: why !! it must not be given; empty where it may
     integer, allocatable :: elements(:)
 
     useless = .false.
     if (present(why)) useless = why /= ''
     if (.not. useless) return
-    call self%describe(name, 'string', '', meaning)
+    self%key%why_useless = why
     call self%begin_key('', longest_list, elements, default=no_default)
     call self%end_key('', .false., .false.)
     if (self%key%given) call self%complain(trim(self%key%group), name, why)
@@ -72,9 +72,9 @@ contains
     real(wp) :: values(1)
 
     if (present(given)) given = .false.
-    if (self%has_no_use(name, meaning, useless)) return
-    values = value
     call self%describe(name, real_words, unit, meaning)
+    if (self%has_no_use(name, useless)) return
+    values = value
     call self%take_numbers(single, values, rule, required, default, given)
     value = values(1)
   end subroutine real_key
@@ -93,8 +93,8 @@ contains
     character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
 
     if (present(given)) given = .false.
-    if (self%has_no_use(name, meaning, useless)) return
     call self%describe(name, 'real('//text(size(values))//')', unit, meaning)
+    if (self%has_no_use(name, useless)) return
     call self%take_numbers(size(values), values, rule, required, default, given)
   end subroutine real_vector_key
 
@@ -141,10 +141,10 @@ contains
     logical :: must
 
     allocate (values(0))
-    if (self%has_no_use(name, meaning, useless)) return
+    call self%describe(name, list_words, unit, meaning)
+    if (self%has_no_use(name, useless)) return
     must = .true.
     if (present(required)) must = required
-    call self%describe(name, list_words, unit, meaning)
     call self%begin_key('', most, elements, required=must, default=default)
     values = spread(0.0_wp, 1, size(elements))
     do i = 1, size(values)
@@ -169,9 +169,9 @@ contains
     integer :: number, before
 
     if (present(given)) given = .false.
-    if (self%has_no_use(name, meaning, useless)) return
-    before = value
     call self%describe(name, 'integer', '1', meaning)
+    if (self%has_no_use(name, useless)) return
+    before = value
     call self%begin_key(text(value), single, elements, required, default, given)
     if (size(elements) == 1) then
       call read_integer(self%file%value_text(elements(1)), number, problem)
@@ -249,9 +249,9 @@ contains
     integer, allocatable :: elements(:)
     integer :: before
 
-    if (self%has_no_use(name, meaning, useless)) return
-    before = value
     call self%describe(name, '`'//choices(words)//'`', '', meaning)
+    if (self%has_no_use(name, useless)) return
+    before = value
     call self%begin_key(chosen_word(words, value), single, elements, required)
     if (self%key%given) value = 0
     if (size(elements) == 1) call self%take_choice(elements(1), 0, words, value)

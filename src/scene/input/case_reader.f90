@@ -318,6 +318,7 @@ contains
     self%key%unit = unit
     self%key%meaning = meaning
     self%key%numbers = [real(wp) ::]
+    if (allocated(self%key%why_useless)) deallocate (self%key%why_useless)
   end subroutine describe
 
   !> Finds a key's values, and notes what the table says of it.

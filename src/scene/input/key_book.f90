@@ -48,6 +48,7 @@ module gfb_key_book
     logical :: is_default = .false. !! it is given the value that holds without it
     logical :: is_set = .false.     !! the value is more than a placeholder
     logical :: is_echoed = .false.  !! its group is
+    character(len=:), allocatable :: why_useless !! in words, where it has no use in this case
   end type key_type
 
   !> All groups and keys.
@@ -126,6 +127,8 @@ contains
       is_key = self%keys(:self%count)%name == key .and. is_real
       if (any(is_key)) near = join(pack(known, is_key), ''' or ''')
       problem = 'there is no key '//shown(group//'%'//key)//did_you_mean(near, '''')
+    else if (allocated(self%keys(i)%why_useless)) then
+      problem = group//'%'//key//' '//self%keys(i)%why_useless
     else if (is_list(i) .and. .not. in_list) then
       problem = group//'%'//key//' is a list: name one of its values, such as '//key//'(2)'
     else if (is_real(i) .and. in_list) then

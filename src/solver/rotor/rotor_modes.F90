@@ -399,7 +399,8 @@ contains
         modes = pack(modes, abs(modes%rate - count%centre) < count%radius)
         if (found .and. missing == 0) return
         reason = 'the circle along which modes are counted runs through one that was not found'
-        if (found) reason = text(missing)//' more rates than the '//text(size(modes))//' modes found next to half the speed were counted'
+        if (found .and. missing > 0) reason = text(missing)//' more rates than the '//text(size(modes))//' modes found next to half the speed were counted'
+        if (found .and. missing < 0) reason = text(-missing)//' of the '//text(size(modes))//' modes found next to half the speed were not counted'
       else
         reason = 'the iteration for eigenvalues has found '//text(size(modes))//' modes next to half the speed and none beyond '// &
                  text(reach/bearing%point%speed, 3)//' of the speed'
