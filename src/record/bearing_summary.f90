@@ -306,13 +306,22 @@ contains
     if (place /= '') call log%line('point            '//place)
     call show_asked(log, summary)
     if (answer%ring%present) then
-      call show_ring(log, answer)
+      call show_bearing_of_runner(log, answer)
     else
-      call show_journal(log, answer, clearance)
+      call show_bearing_of_shaft(log, answer)
     end if
-    call log%line('friction torque  '//engineering_text(answer%friction_torque, 'N m', 1.0_wp)// &
-                  '   power loss '//engineering_text(answer%power_loss, 'W', 1.0_wp))
+    call log%line('power loss       '//engineering_text(answer%power_loss, 'W', 1.0_wp)// &
+                  '   friction torque '// &
+                  engineering_text(answer%friction_torque, 'mN m', 1.0e3_wp))
     if (answer%heat%present) call show_heat(log, answer%heat, .not. answer%ring%present)
+    call log%line('pressure         '// &
+                  engineering_text(answer%minimum_pressure, 'to', 1.0e-3_wp)//' '// &
+                  engineering_text(answer%maximum_pressure, 'kPa', 1.0e-3_wp))
+    if (answer%ring%present) then
+      call show_runner(log, answer)
+    else
+      call show_shaft(log, answer, clearance)
+    end if
     call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
     call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
                   text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
@@ -321,14 +330,15 @@ contains
                   text(ranks)//' rank(s), BLAS '//blas)
   end subroutine show_closing_block
 
-  !> How a thrust bearing bears its runner.
-  subroutine show_ring(log, answer)
+  !> What a thrust bearing bears, and on which film.
+  subroutine show_bearing_of_runner(log, answer)
     type(run_log_type), intent(in) :: log
     type(bearing_answer_type), intent(in) :: answer
 
     associate (ring => answer%ring)
-      call log%line('axial gap        '//engineering_text(-answer%place(axial), 'um', 1.0e6_wp)// &
-                    '   tilt '//pair(answer%place(4:5), 'mrad', 1.0e3_wp))
+      call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
+                    '   at radius '//engineering_text(ring%thinnest(1), 'mm', 1.0e3_wp)//', '// &
+                    engineering_text(ring%thinnest(2), 'deg', degrees))
       call log%line('axial force      '//engineering_text(answer%force(axial), 'N', 1.0_wp)// &
                     '   mean pressure '//engineering_text(answer%force(axial)/ring%area, 'kPa', &
                                                           1.0e-3_wp)//' over ambient')
@@ -338,13 +348,15 @@ contains
                       engineering_text(ring%opposite_force, 'N', 1.0_wp)//', minimum gap '// &
                       engineering_text(ring%opposite_smallest, 'um', 1.0e6_wp))
       end if
-      call log%line('torque on shaft  '//pair(answer%force(4:5), 'N m', 1.0_wp))
-      call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
-                    '   at radius '//engineering_text(ring%thinnest(1), 'mm', 1.0e3_wp)//', '// &
-                    engineering_text(ring%thinnest(2), 'deg', degrees))
-      call log%line('pressure         '// &
-                    engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
-                    engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
+    end associate
+  end subroutine show_bearing_of_runner
+
+  !> Where the runner is, and what the foils do.
+  subroutine show_runner(log, answer)
+    type(run_log_type), intent(in) :: log
+    type(bearing_answer_type), intent(in) :: answer
+
+    associate (ring => answer%ring)
       if (ring%centre(1) > 0.0_wp) then
         call log%line('                 centre on pad 1 at radius '// &
                       engineering_text(ring%centre(1), 'mm', 1.0e3_wp)//', '// &
@@ -357,56 +369,74 @@ contains
       if (answer%has_foils) then
         call log%line('trailing edge    deflected by '//pair(ring%trailing_deflection, 'um', &
                                                              1.0e6_wp)//' inside and outside')
-        call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
-                      ' % of their length touch nothing')
+        call show_crests(log, answer)
       end if
+      call log%line('axial gap        '//engineering_text(-answer%place(axial), 'um', 1.0e6_wp)// &
+                    '   tilt '//pair(answer%place(4:5), 'mrad', 1.0e3_wp)// &
+                    ', torque on shaft '//pair(answer%force(4:5), 'mN m', 1.0e3_wp))
     end associate
-  end subroutine show_ring
+  end subroutine show_runner
 
-  !> How a journal bearing bears its shaft.
-  subroutine show_journal(log, answer, clearance)
+  !> How much of the crests touches nothing.
+  subroutine show_crests(log, answer)
     type(run_log_type), intent(in) :: log
     type(bearing_answer_type), intent(in) :: answer
-    real(wp), intent(in) :: clearance !! C [m]
-    character(len=4) :: who
+    call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
+                  ' % of their length touch nothing')
+  end subroutine show_crests
 
-    call log%line('eccentricity     '//pair(answer%place(:2), 'um', 1.0e6_wp)// &
-                  '   over C '//text(answer%place(1)/clearance, 5)//', '// &
-                  text(answer%place(2)/clearance, 5))
-    who = merge('full', 'film', answer%has_solid_contact)
-    call log%line('attitude angle   '// &
-                  engineering_text(attitude_angle(answer), 'deg', degrees)//'   from '//who// &
-                  ' force (in equilibrium the load), at '// &
-                  text(direction_of(answer%force(1:2)), 4)// &
-                  ' deg, to the thinnest film, -e, at '// &
-                  text(direction_of(-answer%place(:2)), 4)//' deg, positive with the rotation')
-    call log%line(who//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
-    call log%line(who//' torque      '//pair(answer%force(4:5), 'N m', 1.0_wp)// &
-                  '   without suction '// &
-                  pair(answer%force_without_suction(4:5), 'N m', 1.0_wp))
+  !> What a journal bearing bears, and on which film.
+  subroutine show_bearing_of_shaft(log, answer)
+    type(run_log_type), intent(in) :: log
+    type(bearing_answer_type), intent(in) :: answer
+
     call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
                   '   midplane '//engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)// &
                   ', edge '//engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))
+    call log%line(forces_of(answer)//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
     if (allocated(answer%pad_gap)) call show_pads(log, answer)
-    call log%line('pressure         '// &
-                  engineering_text(answer%minimum_pressure, 'to', 1.0e-6_wp)//' '// &
-                  engineering_text(answer%maximum_pressure, 'MPa', 1.0e-6_wp))
+    if (answer%has_solid_contact) then
+      call log%line('solid contact    '//pair(answer%solid_force(1:2), 'N', 1.0_wp)// &
+                    ' of the force, friction torque '// &
+                    engineering_text(answer%solid_torque, 'mN m', 1.0e3_wp))
+    end if
+  end subroutine show_bearing_of_shaft
+
+  !> Where the shaft is, and what the foils do.
+  subroutine show_shaft(log, answer, clearance)
+    type(run_log_type), intent(in) :: log
+    type(bearing_answer_type), intent(in) :: answer
+    real(wp), intent(in) :: clearance !! C [m]
+
     if (answer%has_foils) then
       call log%line('top foil edges   leading '//lifts(answer%leading_edge_lift)//', trailing '// &
                     lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends)')
-      call log%line('crests           '//text(100.0_wp*answer%lifted_length, 3)// &
-                    ' % of their length touch nothing')
+      call show_crests(log, answer)
       if (max(maxval(answer%pad_lift), maxval(answer%trailing_edge_lift)) > lifted*clearance) then
         call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
                       'gfb --branches lists equilibria')
       end if
     end if
-    if (answer%has_solid_contact) then
-      call log%line('solid contact    '//pair(answer%solid_force(1:2), 'N', 1.0_wp)// &
-                    ' of the force, friction torque '// &
-                    engineering_text(answer%solid_torque, 'N m', 1.0_wp))
-    end if
-  end subroutine show_journal
+    call log%line('eccentricity     '//pair(answer%place(:2), 'um', 1.0e6_wp)// &
+                  '   over C '//text(answer%place(1)/clearance, 5)//', '// &
+                  text(answer%place(2)/clearance, 5))
+    call log%line('attitude angle   '// &
+                  engineering_text(attitude_angle(answer), 'deg', degrees)//'   from '// &
+                  forces_of(answer)//' force (in equilibrium the load), at '// &
+                  text(direction_of(answer%force(1:2)), 4)// &
+                  ' deg, to the thinnest film, -e, at '// &
+                  text(direction_of(-answer%place(:2)), 4)//' deg, positive with the rotation')
+    call log%line(forces_of(answer)//' torque      '//pair(answer%force(4:5), 'mN m', 1.0e3_wp)// &
+                  '   without suction '// &
+                  pair(answer%force_without_suction(4:5), 'mN m', 1.0e3_wp))
+  end subroutine show_shaft
+
+  !> Whose forces are told: the film's alone, or all with those of solid contact.
+  pure function forces_of(answer) result(who)
+    type(bearing_answer_type), intent(in) :: answer
+    character(len=4) :: who
+    who = merge('full', 'film', answer%has_solid_contact)
+  end function forces_of
 
   !> Where the heat goes, and how hot all is.
   subroutine show_heat(log, heat, grows)
@@ -492,7 +522,10 @@ contains
     character(len=*), intent(in) :: unit    !! of the text
     real(wp), intent(in) :: scale           !! text's number over SI number
     character(len=:), allocatable :: words
-    words = '('//text(numbers(1)*scale, 4)//', '//text(numbers(2)*scale, 4)//') '//unit
+    real(wp) :: shown(2)
+
+    shown = merge(numbers*scale, 0.0_wp, abs(numbers) > no_direction*norm2(numbers)) ! round-off is none
+    words = '('//text(shown(1), 4)//', '//text(shown(2), 4)//') '//unit
   end function pair
 
   !> A summary with what was asked for behind the lines that open it; all else in its order.
