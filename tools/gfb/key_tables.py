@@ -39,11 +39,15 @@ PURPOSES = {  # what a group is for, and where more of it stands
 }
 
 
+def key_rows(printed):
+    """Group, key, kind, unit, default and meaning of each key that `gfb --keys` prints."""
+    return [[cell.strip() for cell in ROW.split(line)[1:-1]] for line in printed.strip().splitlines()[2:]]
+
+
 def key_tables(printed):
     """The manual's sections, in the program's order of groups."""
     groups = {}
-    for line in printed.strip().splitlines()[2:]:
-        group, *row = (cell.strip() for cell in ROW.split(line)[1:-1])
+    for group, *row in key_rows(printed):
         groups.setdefault(group.strip("`&"), []).append(row)
     unknown = sorted(groups.keys() ^ PURPOSES.keys())
     if unknown:

@@ -27,14 +27,19 @@ from gfb.tool import ROOT, need_packages, stop
 TABLES = ("keys", "results")  # an option of gfb and a page each
 
 
-def table_of(gfb, name):
-    """What the program prints; of its keys a table a group."""
+def printed_table(gfb, name):
+    """What the program prints."""
     done = call([gfb, f"--{name}"])
     if done.status != 0:
         stop(f"{gfb} --{name} ended with status {done.status}:\n{done.complaint}", 3)
     if not done.log.startswith("| "):
         stop(f"{gfb} --{name}: no table; is it gfb?")
-    table = done.log.strip() + "\n"
+    return done.log.strip() + "\n"
+
+
+def table_of(gfb, name):
+    """What stands in a page: of the keys a table a group."""
+    table = printed_table(gfb, name)
     return key_tables(table) if name == "keys" else table
 
 

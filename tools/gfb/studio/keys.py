@@ -5,10 +5,10 @@ import decimal
 import re
 
 from gfb.case import Case, CaseError
-from gfb.manual import table_of
+from gfb.key_tables import key_rows
+from gfb.manual import printed_table
 from gfb.tables import READABLE, units_of
 
-CELL = re.compile(r"(?<!\\)\|")
 WORD = re.compile(r"'([^']*)'")
 QUANTITY = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?)(?:\s+([^,*]+)|([A-Za-z][^,*]*))?")
 DIGITS = 12  # of a number in a field: a change of unit and back shows the number that was typed
@@ -97,8 +97,7 @@ def quoted(words):
 def read_keys(gfb):
     """{group: {key: Key}} as the program lists them."""
     found = {}
-    for line in table_of(gfb, "keys").splitlines()[2:]:
-        group, name, *rest = (cell.strip() for cell in CELL.split(line)[1:-1])
+    for group, name, *rest in key_rows(printed_table(gfb, "keys")):
         key = Key(group.strip("`&"), name.strip("`"), *rest)
         found.setdefault(key.group, {})[key.name] = key
     return found
