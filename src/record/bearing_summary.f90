@@ -524,7 +524,8 @@ contains
     character(len=:), allocatable :: words
     real(wp) :: shown(2)
 
-    shown = merge(numbers*scale, 0.0_wp, abs(numbers) > no_direction*norm2(numbers)) ! round-off is none
+    shown = numbers*scale
+    where (abs(numbers) <= no_direction*norm2(numbers)) shown = 0.0_wp ! round-off
     words = '('//text(shown(1), 4)//', '//text(shown(2), 4)//') '//unit
   end function pair
 
