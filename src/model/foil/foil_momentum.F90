@@ -154,6 +154,7 @@ contains
     call self%inner%destroy()
     self%present = .false.
   end subroutine destroy
+
   !> Losses begin at rest.
   subroutine begin_losses(self, time, stiffness, state)
     class(foil_losses_type), intent(inout) :: self !! nothing before
