@@ -9,17 +9,16 @@ inside condensed pieces, stops, and two bearings.
 
 import math
 import pathlib
-import random
 import sys
 import tempfile
 
 import h5py
 import numpy
 
-from gfb_run import Checks, largest_difference, solve, write_case
+from gfb_run import Checks, largest_difference, solve
 from heat import changed, foils_at
 from periodic import orbits
-from restart import SEED, check_kills, run_time
+from restart import check_march
 from small_motions import OMEGA, case, harmonic
 from transient import TIGHT, history, modes_in
 
@@ -171,10 +170,7 @@ def check_stops(checks, folder):
     """Shells with modes inside go on with the same digits after they were killed, and on other ranks."""
     content = turning(LOSSES | {"foil_mass": "on", "foil_modes": 4}, "shell", 0.1)
     content["output"] = {"restart_every": 10}
-    chance = random.Random(SEED)
-    whole = run_time(write_case(folder, "stopped", content), folder/"whole")
-    for ranks in ((1, 1, 1, 1), (2, 1, 2, 1)):
-        check_kills(checks, folder, "stopped", content, chance, ranks, whole)
+    check_march(checks, folder, content)
 
 
 def check_reduction(checks, folder):

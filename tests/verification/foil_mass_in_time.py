@@ -7,7 +7,6 @@ the sleeve's sudden start dies out slowly, so the harmonic is read through a win
 """
 
 import pathlib
-import random
 import sys
 import tempfile
 
@@ -16,8 +15,8 @@ import numpy
 from dynamics import FOIL_BEARING, beams, vibrate
 from dynamics_foils import shells
 from dynamics_mass import heavy
-from gfb_run import Checks, case_groups, largest_difference, solve, write_case
-from restart import SEED, check_kills, run_time
+from gfb_run import Checks, case_groups, largest_difference, solve
+from restart import check_march
 from rotor import speed_of
 from transient import TIGHT, history, plane
 
@@ -98,10 +97,7 @@ def check_stops(checks, folder):
     content = rotor_in_time(heavy(shells(0.1, reduction="guyan", half_width="yes")), foil_mass="on", foil_modes=4)
     content["transient"] |= {"turns": 2.0, "unbalance": 1.0e-6}  # whose film is not yet so thin that round-off shows
     content["output"] = {"restart_every": 10}
-    chance = random.Random(SEED)
-    whole = run_time(write_case(folder, "stopped", content), folder/"whole")
-    for ranks in ((1, 1, 1, 1), (2, 1, 2, 1)):
-        check_kills(checks, folder, "stopped", content, chance, ranks, whole)
+    check_march(checks, folder, content)
 
 
 def check_beams(checks, folder):

@@ -246,6 +246,14 @@ def check_kills(checks, folder, name, content, chance, ranks=(1, 1, 1, 1), whole
     return whole
 
 
+def check_march(checks, folder, content):
+    """A run over time that is killed on one rank, and on changing numbers of them, against one that nothing stops."""
+    chance = random.Random(SEED)
+    whole = run_time(write_case(folder, "stopped", content), pathlib.Path(folder)/"whole")
+    for ranks in ((1, 1, 1, 1), (2, 1, 2, 1)):
+        check_kills(checks, folder, "stopped", content, chance, ranks, whole)
+
+
 def check_refusals(checks, folder, content):
     """A file of another scene or program, or a damaged one, is refused with a sentence, and stays as it is."""
     path = write_case(folder, "refused", content)

@@ -19,7 +19,7 @@ import xarray
 from gfb.case import Case, CaseError
 from gfb.door import DONE, NOT_CONVERGED, WRONG_INPUT, find_member, run_member, table
 from gfb.reading import read
-from gfb.tables import READABLE, markdown_table
+from gfb.tables import markdown_table, readable_unit
 from gfb.tool import run as run_tool
 
 OF_JOURNALS = ("rigid", "elastic_foundation", "beam", "shell")
@@ -49,7 +49,7 @@ class Models:
         for name in names:
             if name not in self.data or not (abs(self.data[name].fillna(0.0)) > 0.0).any():
                 continue
-            unit, scale = READABLE.get(self.data[name].units, (self.data[name].units, 1.0))
+            unit, scale = readable_unit(self.data[name].units)
             rows.append([name, unit, *(readable(float(value)*scale) for value in self.data[name].values)])
         rows.append(["", "", *(ENDS[int(status)] for status in self.data.status.values)])
         lines = [f"- {model}: left out {'; '.join(self.left_out[model])}\n" for model in models if self.left_out[model]]

@@ -19,7 +19,7 @@ import gfb as package
 from gfb import bundle
 from gfb.case import Case, CaseError
 from gfb.door import DONE, ENDINGS, NOT_CONVERGED, WRONG_INPUT, find_member, run_member
-from gfb.tables import READABLE, plain_table
+from gfb.tables import plain_table, readable, readable_unit
 from gfb.tool import say
 
 Bounds = tuple["float | None", "float | None"]
@@ -121,7 +121,7 @@ def cells(rows: Sequence[Row]) -> list[list[str]]:
     """Rows of a table, in units that people read."""
     table = []
     for row in rows:
-        unit, scale = READABLE.get(row.unit, (row.unit, 1.0))
+        unit, scale = readable_unit(row.unit)
         numbers = (row.before, row.after, row.low, row.high)
         table.append([row.name, unit, *("" if number is None else f"{number*scale:.5g}" for number in numbers), row.at])
     return table
@@ -365,8 +365,8 @@ class Runner:
 
 def shown(value: float, unit: str) -> tuple[str, str]:
     """A number in a unit that people read."""
-    unit, scale = READABLE.get(unit, (unit, 1.0))
-    return f"{value*scale:.5g}", unit
+    number, unit = readable(value, unit)
+    return f"{number:.5g}", unit
 
 
 def word(quantity: Quantity) -> str:

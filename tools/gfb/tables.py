@@ -9,6 +9,17 @@ READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad"
 TYPED = {"m": ("mm", 1.0e3), "rad": ("deg", 180.0/math.pi), "Pa": ("GPa", 1.0e-9)}
 
 
+def readable_unit(unit):
+    """The unit in which people read what is in SI, and what to multiply with."""
+    return READABLE.get(unit, (unit, 1.0))
+
+
+def readable(values, unit):
+    """Numbers in SI in the unit that people read, and that unit."""
+    name, factor = readable_unit(unit)
+    return values*factor, name
+
+
 def units_of(unit):
     """{unit: what to multiply SI with} of all units in which a number may be typed, its own last."""
     return dict([*(one[unit] for one in (TYPED, READABLE) if unit in one), (unit, 1.0)])

@@ -12,7 +12,7 @@ import textwrap
 
 from gfb.case import Case, python_value
 from gfb.run import call, run_file
-from gfb.tables import READABLE, markdown_table, plain_table
+from gfb.tables import markdown_table, plain_table, readable_unit
 from gfb.tool import ROOT, stop
 
 FOLDER = ROOT/"inputs/bearings"
@@ -177,7 +177,7 @@ def readable(value, unit):
     """A number with three digits in the unit that people read, or that there is none."""
     if value is None:
         return "none"
-    name, factor = READABLE.get(unit, (unit, 1.0))
+    name, factor = readable_unit(unit)
     return f"{float(f'{value*factor:.3g}'):g} {name}"
 
 

@@ -9,7 +9,6 @@ from gfb.plot.colours import draw_bar, look_of
 from gfb.plot.film import WORDS, label_theta, read_film
 from gfb.plot.scene import case_name, step_words
 from gfb.results import open_results
-from gfb.tables import READABLE
 from gfb.tool import stop
 
 FIELDS = ("pressure", "gap", "deflection")
@@ -68,14 +67,13 @@ def of_film(path, file):
     figure, axes = pyplot.subplots(len(names), 1, figsize=(8.0, 2.3*len(names) + 0.5), squeeze=False, layout="constrained", sharex=True)
     meshes = []
     for chart, name in zip(axes.flat, names):
-        every = [film.readable(name)[0] for film in films]
-        unit = READABLE.get(films[0].units[name], (films[0].units[name],))[0]
+        every, units = zip(*(film.readable(name) for film in films))
         low, high = min(one.min() for one in every), max(one.max() for one in every)
         shades = look_of(name, low, high)
         for pad in films[0].pads:
             mesh = chart.pcolormesh(films[0].theta[pad], 1.0e3*films[0].z, every[0][pad].T, shading="gouraud", **shades)
             meshes.append((mesh, [one[pad].T for one in every]))
-        draw_bar(figure, chart, **shades, label=f"[{unit}]")
+        draw_bar(figure, chart, **shades, label=f"[{units[0]}]")
         chart.set_title(WORDS[name], fontsize=10)
         chart.set_ylabel("z [mm]")
     label_theta(axes[-1, 0], films[0])

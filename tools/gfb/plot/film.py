@@ -5,10 +5,10 @@ import dataclasses
 import numpy
 from matplotlib import pyplot
 
+from gfb import tables
 from gfb.plot.colours import draw_bar, levels_of, look_of
 from gfb.plot.scene import draw_edges, scene_of
 from gfb.results import attribute
-from gfb.tables import READABLE
 from gfb.tool import stop
 
 FIELDS = ("pressure", "gap", "deflection")
@@ -43,8 +43,7 @@ class Film:
 
     def readable(self, name):
         """A field in the unit of a picture, and that unit."""
-        unit, scale = READABLE.get(self.units[name], (self.units[name], 1.0))
-        return self.fields[name]*scale, unit
+        return tables.readable(self.fields[name], self.units[name])
 
 
 def ends_of(pad):
@@ -58,10 +57,8 @@ def broken(along, values, ends):
 
 
 def readable(data):
-    """Values in the unit of a picture, and that unit."""
-    unit = attribute(data, "unit")
-    name, scale = READABLE.get(unit, (unit, 1.0))
-    return data[...]*scale, name
+    """Values of a dataset in the unit of a picture, and that unit."""
+    return tables.readable(data[...], attribute(data, "unit"))
 
 
 def read_film(path, file, names=FIELDS):

@@ -3,7 +3,7 @@ is measured against, and a sketch of the bearing with its load and its thinnest 
 
 import math
 
-from gfb.tables import READABLE
+from gfb.tables import readable_unit
 
 MOST_POINTS = 40  # of an arc of the sketch
 KELVIN = 273.15
@@ -30,7 +30,7 @@ class Results:
         value = self.value(name)
         if value is None:
             return ""
-        unit, scale = READABLE.get(self.summary[name]["unit"], (self.summary[name]["unit"], 1.0))
+        unit, scale = readable_unit(self.summary[name]["unit"])
         error = self.value(f"{name}_error")
         return f"{scale*value:.4g}" + (f" ± {scale*error:.2g}" if error is not None else "") + (f" {unit}" if unit != "1" else "")
 

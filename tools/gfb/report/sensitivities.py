@@ -4,7 +4,7 @@ import math
 import re
 
 from gfb.case import Case
-from gfb.tables import READABLE
+from gfb.tables import readable
 
 MOST_BARS = 12  # of a result; what is left over moves it less
 PER_CENT = 0.01
@@ -72,11 +72,11 @@ def block(quantity, derivatives, summary, tolerances, case, swept):
 
 def plain(value, unit):
     """A number in the unit of a page."""
-    unit, scale = READABLE.get(unit, (unit, 1.0))
-    return f"{scale*value:.4g}" + (f" {unit}" if unit != "1" else "")
+    number, unit = readable(value, unit)
+    return f"{number:.4g}" + (f" {unit}" if unit != "1" else "")
 
 
 def signed(value, unit):
     """The same of a difference."""
-    unit, scale = READABLE.get(unit, (unit, 1.0))
-    return f"{scale*value:+.3g}" + (f" {unit}" if unit != "1" else "")
+    number, unit = readable(value, unit)
+    return f"{number:+.3g}" + (f" {unit}" if unit != "1" else "")

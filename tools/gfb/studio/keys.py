@@ -7,7 +7,7 @@ import re
 from gfb.case import Case, CaseError
 from gfb.key_tables import key_rows
 from gfb.manual import printed_table
-from gfb.tables import READABLE, units_of
+from gfb.tables import readable_unit, units_of
 
 WORD = re.compile(r"'([^']*)'")
 QUANTITY = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?)(?:\s+([^,*]+)|([A-Za-z][^,*]*))?")
@@ -51,7 +51,7 @@ class Key:
         if isinstance(number, bool):
             return str(number).lower()
         units = units_of(self.unit)
-        unit = next((one for one, scale in units.items() if abs(number)*scale >= 1.0), READABLE.get(self.unit, (self.unit,))[0])
+        unit = next((one for one, scale in units.items() if abs(number)*scale >= 1.0), readable_unit(self.unit)[0])
         words = f"{float(decimal.Decimal(repr(number))*decimal.Decimal(repr(units[unit]))):.{DIGITS}g}" if isinstance(number, float) else str(number)
         return words if unit in ("", "1") or number == 0 else f"{words} {unit}"
 

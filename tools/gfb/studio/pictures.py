@@ -12,7 +12,7 @@ from gfb.plot.rolled import drawn_larger, paths_of, read_shaft, read_surface
 from gfb.plot.scene import scene_of
 from gfb.reading import surface
 from gfb.results import attribute, open_results, reading
-from gfb.tables import READABLE
+from gfb.tables import readable
 
 MOST = 240     # stations, or rows, of a drawn surface
 POINTS = 5000  # of a curve
@@ -64,12 +64,6 @@ def draw(stem, name):
             return film(stem, field)
         return foils(stem) if name == FOILS else strip(stem, kind, field)
     return None
-
-
-def readable(values, unit):
-    """Values in the unit that people read, and that unit."""
-    unit, scale = READABLE.get(unit, (unit, 1.0))
-    return numpy.asarray(values)*scale, unit
 
 
 def named(name, unit):
