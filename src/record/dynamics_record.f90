@@ -42,6 +42,8 @@ module gfb_dynamics_record
   type, public :: dynamics_point_type
     real(wp), allocatable :: frequency(:)          !! [rad/s]
     complex(wp), allocatable :: coefficient(:, :, :) !! (row, column, frequency) Z in SI
+    !> of lines between neighbours, if frequencies were put between those given; NaN: could not [1]
+    real(wp), allocatable :: interpolation_miss
     real(wp), allocatable :: mode(:, :)            !! (number, mode) of the rotor, if there is one
     real(wp), allocatable :: amplitude(:)          !! of the shaft, if any is asked for [m]
     !> (row, column, amplitude, frequency) Z in SI
@@ -174,6 +176,12 @@ contains
     call add_array(arrays, '/dynamics/damping', trim(units(2)), &
                    'imaginary part of K + i omega C over omega'//axes// &
                    'the same over velocity or angular velocity', damping, sweeps, motions)
+    if (allocated(record%point(1)%interpolation_miss)) then
+      call add_array(arrays, '/dynamics/interpolation_miss', '1', 'how far straight lines '// &
+                     'between neighbouring frequencies miss stiffness and damping at most, '// &
+                     'over their largest entry; NaN: not known, frequencies are as given', &
+                     reshape([record%point(1)%interpolation_miss], [1, 1]))
+    end if
     if (allocated(record%point(1)%error)) call add_error_arrays(record%point(1), arrays)
     call add_mode_arrays(record, sweeps, points, arrays)
     if (allocated(record%point(1)%amplitude)) call add_amplitude_arrays(record%point(1), arrays)

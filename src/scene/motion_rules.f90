@@ -63,8 +63,30 @@ contains
         call check_damping(keys, scene)
       end if
       if (amplitudes) call check_amplitudes(keys, scene)
+      if (asked%interpolation_tolerance > 0.0_wp) call check_interpolation(keys, scene)
     end associate
   end subroutine check_dynamics
+
+  !> Where frequencies can be put between those given: how many is known afterwards alone.
+  subroutine check_interpolation(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'dynamics', name = 'interpolation_tolerance'
+    logical :: rising
+
+    associate (given => scene%dynamics%frequencies, n => size(scene%dynamics%frequencies))
+      rising = n > 1
+      if (rising) rising = all(given(2:) > given(:n - 1))
+    end associate
+    call keys%rule(group, name, .not. rising, &
+                   'needs two frequencies or more, each larger than the one before')
+    call keys%rule(group, name, scene%sweep%present, &
+                   'needs a scene of one answer, without &sweep')
+    call keys%rule(group, name, scene%accuracy%present, 'cannot stand beside &accuracy: all '// &
+                   'meshes must have the same frequencies')
+    call keys%refuse(group, 'vibration_amplitudes', .true., 'cannot stand beside '//name// &
+                     ': every amplitude is solved at every frequency')
+  end subroutine check_interpolation
 
   !> Where amplitudes of the shaft count.
   subroutine check_amplitudes(keys, scene)

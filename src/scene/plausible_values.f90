@@ -132,6 +132,7 @@ module gfb_plausible_values
                'dynamics%frequencies transient%orbit_frequency '// &
                'foil_damping%loss_frequency'), &
     range_type(0.0_wp, 100.0_wp, '1', '%', 'dynamics%frequency_ratios'), &
+    range_type(0.0_wp, 0.5_wp, '1', '%', 'dynamics%interpolation_tolerance'), &
     range_type(1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3', 'foil_damping%foundation_damping'), &
     range_type(1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'foil_damping%maxwell_stiffness'), &
     range_type(1.0e-9_wp, 1.0e2_wp, 's', 'ms,us', 'foil_damping%maxwell_time'), &

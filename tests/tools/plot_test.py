@@ -422,15 +422,18 @@ class RotorTest(unittest.TestCase):
         numpy.testing.assert_allclose(speed.get_ydata(), speed.get_xdata()/60.0)  # Hz
 
     def test_coefficients_next_to_a_foil_mode_are_not_joined(self):
-        """A peak of 2 rad/s between points 100 rad/s apart is not seen: no line leads past it; one of 200 rad/s is."""
+        """A peak of 2 rad/s between points 100 rad/s apart is not seen: no line leads past it; one of 200 rad/s is, and any where the
+        program has put frequencies until lines are right."""
         path = self.folder/"a.h5"
-        for growth, known in ((-1.0, False), (-100.0, True)):
+        for growth, miss, known in ((-1.0, None, False), (-100.0, None, True), (-1.0, 0.02, True), (-1.0, numpy.nan, False)):
             with h5py.File(path, "w") as file:
                 for name, value in {"frequency": [100.0, 200.0, 300.0], "stiffness": numpy.arange(48.0).reshape(3, 4, 4)*1.0e6,
                                     "damping": numpy.ones((3, 4, 4)), "mode_frequency": [250.0, 150.0], "mode_shaft_share": [1.0e-4, 0.9],
                                     "mode_foil_share": [0.9, 1.0e-3], "mode_kind": [1.0, 1.0], "mode_sense": [1.0, 1.0],
                                     "mode_damping_ratio": [-growth/numpy.hypot(growth, 250.0), 0.1]}.items():
                     file[f"dynamics/{name}"] = value
+                if miss is not None:
+                    file["dynamics/interpolation_miss"] = [miss]
                 file["scene/used"] = "&operation\n  speed_rpm = 2000.0 ! [rpm]\n/\n"
                 file["history/whirl_ratio"] = [0.5]
                 chart = plot_dynamics.draw(path, file).axes[0]

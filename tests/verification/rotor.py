@@ -284,6 +284,28 @@ def check_foil_mass(checks, folder):
     checks.below("it is next to the foil's alone, of 135.4 Hz", modes["frequency"][0]/(2.0*math.pi*135.4) - 1.0, 0.02)
 
 
+def check_foil_peak(checks, folder):
+    """Frequencies that are put between two given find the peak of the foil's mode, which is 0.7 rad/s wide: lines are what is solved."""
+    content = compressor("on")
+    del content["sweep"]
+    whole = content | {"dynamics": content["dynamics"] | {"frequency_ratios": (0.1, 2.0), "interpolation_tolerance": 0.02}}
+    table = solve(folder, "peak", whole, options=())
+    with h5py.File(f"{table.stem}.h5", "r") as file:
+        frequency, *both = (file[f"dynamics/{name}"][...] for name in ("frequency", "stiffness", "damping"))
+        mode = file["dynamics/mode_frequency"][0]
+        checks.below("lines between frequencies: their own miss", file["dynamics/interpolation_miss"][0], 0.02)
+    checks.that("few frequencies hold the peak", 10 < len(frequency) < 60)
+    checks.that("a peak it is", numpy.ptp(both[0][:, 1, 1]) > 0.5*numpy.median(both[0][:, 1, 1]))
+    for number, off in enumerate((-0.4, -0.1, 0.2, 0.7)):
+        content["dynamics"] = {"frequencies": (mode + off,), "foil_mass": "on"}
+        alone = solve(folder, f"peak_{number}", content, options=())
+        with h5py.File(f"{alone.stem}.h5", "r") as file:
+            for name, values in zip(("stiffness", "damping"), both):
+                solved = file[f"dynamics/{name}"][...].reshape(4, 4)[:2, :2]
+                line = [[numpy.interp(mode + off, frequency, values[:, row, column]) for column in range(2)] for row in range(2)]
+                checks.below(f"{name} {off} rad/s off the foil's mode: line against solved", numpy.abs(line - solved).max()/numpy.abs(solved).max(), 0.025)
+
+
 def check_onset_with_losses(checks, folder):
     """With a loss factor the onset is where the critical mass passes the rotor's."""
     one = REFERENCE["onset"][1]
@@ -306,6 +328,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         if "--long" not in sys.argv:
             check_foil_mass(checks, folder)
+            check_foil_peak(checks, folder)
             check_onset_with_losses(checks, folder)
             checks.close()
         check_growth(checks, folder)

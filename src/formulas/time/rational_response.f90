@@ -43,7 +43,7 @@ module gfb_rational_response
     real(wp), allocatable, private :: scale(:) !! makes the coordinates' entries alike
     type(fit_type), private :: fit, fit_before !! to all samples; to all but the last
   contains
-    procedure :: add, has, fits, at, doubt, next_sample
+    procedure :: add, has, fits, at, doubt, next_sample, poles
   end type rational_response_type
 
   interface
@@ -67,6 +67,19 @@ module gfb_rational_response
       complex(wp), intent(inout) :: a(lda, n), b(ldb, nrhs)
       integer, intent(out) :: ipiv(n), info
     end subroutine zgesv
+
+    !> LAPACK: eigenvalues alpha/beta of a pair of general matrices.
+    pure subroutine zggev(jobvl, jobvr, n, a, lda, b, ldb, alpha, beta, vl, ldvl, vr, ldvr, work, &
+      lwork, rwork, info)
+      import :: wp
+      implicit none (type, external)
+      character(len=1), intent(in) :: jobvl, jobvr
+      integer, intent(in) :: n, lda, ldb, ldvl, ldvr, lwork
+      complex(wp), intent(inout) :: a(lda, n), b(ldb, n)
+      complex(wp), intent(out) :: alpha(n), beta(n), vl(ldvl, n), vr(ldvr, n), work(lwork)
+      real(wp), intent(out) :: rwork(8*n)
+      integer, intent(out) :: info
+    end subroutine zggev
   end interface
 
 contains
@@ -161,6 +174,27 @@ contains
     end if
     place = maxloc(need, 1, open)
   end function next_sample
+
+  !> Rates at which the function is infinite: those of motions that die out or grow by themselves
+  !> while the shaft is held, of all that the samples tell.
+  pure function poles(self) result(rate)
+    class(rational_response_type), intent(in) :: self !! with samples that fit
+    complex(wp), allocatable :: rate(:) !! [rad/s]
+    complex(wp), dimension(size(self%fit%value, 1), size(self%fit%value, 1)) :: value, slope
+    complex(wp) :: numerator(size(value, 1)), denominator(size(value, 1)), none(1, size(value, 1))
+    complex(wp) :: work(8*size(value, 1))
+    real(wp) :: room(8*size(value, 1))
+    integer :: info
+
+    value = self%fit%value
+    slope = self%fit%slope
+    call zggev('N', 'N', size(value, 1), value, size(value, 1), slope, size(value, 1), numerator, &
+      denominator, none, 1, none, 1, work, size(work), room, info)
+    if (info /= 0) denominator = 0.0_wp
+    associate (finite => abs(denominator) > round_off*abs(numerator))
+      rate = self%fit%unit*pack(numerator, finite)/pack(denominator, finite)
+    end associate
+  end function poles
 
   !> The function through the samples.
   pure function fit_of(self) result(fit)

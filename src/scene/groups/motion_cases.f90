@@ -65,6 +65,7 @@ module gfb_motion_cases
     logical :: present = .false.              !! the analysis is 'linear_dynamics'
     real(wp), allocatable :: frequencies(:)   !! [rad/s]
     real(wp), allocatable :: ratios(:)        !! the same over the speed of the shaft, or none [1]
+    real(wp) :: interpolation_tolerance = 0.0_wp !! of lines between frequencies; 0: as given [1]
     integer :: contact_tangent = tangent_stick
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
     real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
@@ -258,6 +259,10 @@ contains
                             'the same over the speed of the shaft', positive, .false., &
                             'required without `frequencies`')
     dynamics%frequencies = frequencies_at(dynamics, angular_speed(operation%speed_rpm))
+    call keys%real_key('interpolation_tolerance', dynamics%interpolation_tolerance, '1', &
+                       'further frequencies are put between those given until straight lines '// &
+                       'between neighbours miss stiffness and damping by no more than this, '// &
+                       'over their largest entry (0.02, say); 0: none', not_negative)
     call keys%choice_key('contact_tangent', dynamics%contact_tangent, tangent_words, &
                          'what contacts that rub do under a small vibration: stick, as those '// &
                          'do that it has shaken down, or slide on as when they were loaded')

@@ -19,7 +19,8 @@ module gfb_dynamics
   use gfb_bearing_builder, only: build_opposite
   use gfb_newton, only: newton_type, show_enlargements
   use gfb_dynamic_response, only: dynamic_response_type, create_response, response_failure, destroy_response
-  use gfb_frequency_response, only: frequency_response_type, cover_frequencies, coefficients_at
+  use gfb_frequency_response, only: frequency_response_type, cover_frequencies, coefficients_at, joined_type, join_frequencies, &
+                                    most_joined
   use gfb_vibration_equations, only: vibration_type
   use gfb_foil_mass_choice, only: choose_mass, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
@@ -77,7 +78,7 @@ contains
     if (.not. allocated(record%problem)) then
       call add_entries('stiffness_', stiffness_of(point, 1), found)
       call add_entries('damping_', damping_of(point, 1), found)
-      if (.not. scene%sweep%present) call show_coefficients(log, bearing%point%speed, point)
+      if (.not. scene%sweep%present) call show_coefficients(scene, log, bearing%point%speed, point)
     end if
     if (.not. allocated(record%problem) .and. size(scene%dynamics%amplitudes) > 0) then
       call fill_amplitudes(scene, log, bearing, response, point, record%problem)
@@ -111,16 +112,50 @@ contains
     integer :: i
 
     point%frequency = frequencies_at(scene%dynamics, bearing%point%speed)
-    associate (motions => size(response%motion))
-      allocate (point%coefficient(motions, motions, size(point%frequency)), source=(0.0_wp, 0.0_wp))
-    end associate
-    call cover_frequencies(bearing, response, point%frequency, log, model, made)
+    if (scene%dynamics%interpolation_tolerance > 0.0_wp) then
+      call add_frequencies(scene%dynamics%interpolation_tolerance, log, bearing, response, model, point, made)
+    else
+      call cover_frequencies(bearing, response, point%frequency, log, model, made)
+    end if
     if (.not. made) problem = 'the vibration at '//text(model%failed)//' rad/s: '//response_failure(response)
     if (.not. made) return
+    associate (motions => size(response%motion))
+      allocate (point%coefficient(motions, motions, size(point%frequency)))
+    end associate
     do i = 1, size(point%frequency)
       point%coefficient(:, :, i) = coefficients_at(response, model, point%frequency(i))
     end do
   end subroutine fill_coefficients
+
+  !> Puts frequencies between those of the scene, and says how many.
+  subroutine add_frequencies(tolerance, log, bearing, response, model, point, made)
+    real(wp), intent(in) :: tolerance !! of lines between neighbours [1]
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    type(frequency_response_type), intent(inout) :: model !! gets the samples
+    type(dynamics_point_type), intent(inout) :: point !! with the frequencies of the scene
+    logical, intent(out) :: made !! else nothing is solved at one of them
+    type(joined_type) :: joined
+    integer :: asked
+
+    asked = size(point%frequency)
+    call join_frequencies(bearing, response, tolerance, log, model, point%frequency, joined)
+    made = joined%found
+    if (.not. made) return
+    point%interpolation_miss = joined%largest_miss
+    if (.not. joined%by_function) then
+      call log%warning('no frequencies are put between those given: that would take more samples than a function '// &
+                       'goes through; a larger interpolation_tolerance takes fewer')
+      return
+    end if
+    call log%line(text(size(point%frequency) - asked)//' frequencies put between the '//text(asked)//' given, in table and files: '// &
+                  'lines between neighbours miss K and C by at most '//text(100.0_wp*joined%largest_miss, 2)//' % of the largest entry')
+    if (joined%largest_miss > tolerance) then
+      call log%warning('lines between frequencies miss K and C by more than interpolation_tolerance: no more than '// &
+                       text(most_joined)//' frequencies are taken')
+    end if
+  end subroutine add_frequencies
 
   !> Stiffness and damping at the amplitudes of the scene, each found from the one before.
   subroutine fill_amplitudes(scene, log, bearing, response, point, problem)
@@ -350,8 +385,9 @@ contains
     end if
   end subroutine describe
 
-  !> A line a frequency.
-  subroutine show_coefficients(log, speed, point)
+  !> A line a frequency that was asked for.
+  subroutine show_coefficients(scene, log, speed, point)
+    type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     real(wp), intent(in) :: speed !! of the shaft [rad/s]
     type(dynamics_point_type), intent(in) :: point
@@ -365,6 +401,7 @@ contains
       call log%line('frequency [rad/s] (over speed)   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]')
     end if
     do i = 1, size(point%frequency)
+      if (all(abs(frequencies_at(scene%dynamics, speed) - point%frequency(i)) > 0.0_wp)) cycle
       line = text(point%frequency(i), digits)
       if (speed > 0.0_wp) line = line//' ('//text(point%frequency(i)/speed, digits)//')'
       call log%line(line//numbers_of(stiffness_of(point, i))//numbers_of(damping_of(point, i)))

@@ -38,7 +38,7 @@ def draw(path, file, steps=()):
         title = read_scene(file).title(path)
     rising = numpy.argsort(frequency)
     frequency, modes = frequency[rising], foil_modes(group, here)
-    unknown = between(frequency, modes)
+    unknown = [] if lines_are_known(group) else between(frequency, modes)
     figure, axes = pyplot.subplots(2, 2, figsize=(11.0, 7.0), layout="constrained", sharex=True)
     charts = CHARTS if group["stiffness"].shape[-1] == 4 else CHARTS_OF_RUNNER
     for chart, (name, entries, scale, label) in zip(axes.flat, charts, strict=True):
@@ -70,6 +70,11 @@ def foil_modes(group, here):
         return []
     modes = read_modes(group, here)
     return [(rate.imag, 2.0*abs(rate.real)) for rate in rates(modes)[of_foil(modes)] if rate.imag > 0.0]
+
+
+def lines_are_known(group):
+    """Whether frequencies were put between those asked for until lines are K and C (interpolation_tolerance)."""
+    return "interpolation_miss" in group and bool(numpy.isfinite(group["interpolation_miss"][...]).all())
 
 
 def between(frequency, modes):
