@@ -133,6 +133,32 @@ def check_exact_bump(checks, folder):
             checks.below(f"{words}, {key}: the mean of a wide bump", mean, 2.0e-2)
 
 
+def check_forces_along_the_axis(checks, folder):
+    """Contact forces per length, along a line.
+
+    Without Poisson's ratio every slice across the axis is the same planar bump: forces are even to the ends, where a node stands for
+    half an element. With it the free edges curl, and forces alternate from node to node where elements are too long for that: between
+    nodes that are held at one height a linear element bends by turning its ends against each other. Means of neighbours stay right.
+    """
+
+    def forces(ratio, elements):
+        """Of two bumps between plates, on the crests: step 1, by line and row of nodes; the plate's force over the width."""
+        strip = squeezed(folder, "even", friction=0.0, steps=1, down=0, strip_load={"maximum_displacement": 5.0*MICROMETRE},
+                         bump_foil={"bumps": 2, "poissons_ratio": ratio}, mesh={"arc_elements": 12, "flat_elements": 3, "axial_elements": elements})
+        return contact_lines(strip, "top")[0]["normal_force"][-1], strip["maximum_force"]/PAIR["width"]
+
+    even, whole = forces(0.0, 8)
+    checks.below("without Poisson's ratio: forces per length are even along a line", numpy.ptp(even, axis=1).max()/even.mean(), 1.0e-8)
+    checks.below("and add up to the plate's over the width", even[:, 0].sum()/whole - 1.0, 1.0e-8)
+    coarse, fine = (forces(0.3, elements)[0] for elements in (8, 80))
+    middle = fine[:, fine.shape[1]//2][:, None]
+    inner = slice(fine.shape[1]//4, -(fine.shape[1]//4))
+    checks.below("elements a tenth as long: forces inside are even", (numpy.abs(fine[:, inner]/middle - 1.0)).max(), 1.0e-2)
+    checks.within("elements of 2.25 mm: forces alternate by", 0.25*numpy.abs(numpy.diff(coarse, 2, axis=1)/middle)[:, 1:-1].max(), 0.15, 0.3)
+    means = 0.25*(coarse[:, :-2] + 2.0*coarse[:, 1:-1] + coarse[:, 2:])
+    checks.below("their means of neighbours are those forces", numpy.abs(means/middle - 1.0)[:, 1:-1].max(), 1.0e-2)
+
+
 def check_convergence(checks, folder, met):
     """Second order along the arc, with and without friction; the paper's mesh is stiff."""
     for words, friction in (("friction 0", {}), ("0.1 at both", {"top": 0.1, "sleeve": 0.1})):
@@ -157,6 +183,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         met = check_case_1(checks, folder)
         check_case_2(checks, folder)
+        check_forces_along_the_axis(checks, folder)
         check_exact_bump(checks, folder)
         check_convergence(checks, folder, met)
     checks.close()
