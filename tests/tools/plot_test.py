@@ -29,6 +29,7 @@ from gfb.plot import main as plot_main  # noqa: E402
 from gfb.plot import polar as plot_polar  # noqa: E402
 from gfb.plot import rotor as plot_rotor  # noqa: E402
 from gfb.plot import sample as plot_sample  # noqa: E402
+from gfb.plot import scene as plot_scene  # noqa: E402
 from gfb.plot import strip as plot_strip  # noqa: E402
 
 SMALL = """&scene analysis = 'strip' /
@@ -270,6 +271,19 @@ class BearingTest(unittest.TestCase):
         (self.folder/"beams.h5").write_bytes(b"broken")
         with h5py.File(path, "r") as file:  # it is not this file that is broken
             self.assertEqual(plot_film.draw_film(path, file)._suptitle.get_text(), "beams")
+
+    def test_a_title_says_the_load_that_is_given(self):
+        """A shaft that moves has another film force than its load, one whose position is given no load."""
+        for analysis, load, words, angle in (("equilibrium", "-20.0, 0.0", "load 20 N", 180.0), ("transient", "-20.0, 20.0", "load 28.28 N", 135.0),
+                                             ("periodic", "-20.0, 0.0", "load 20 N", 180.0), ("transient", None, "film force 20 N", 180.0),
+                                             ("linear_dynamics", "-21.0, 0.0", "film force 20 N", 180.0)):
+            with h5py.File(self.folder/"a.h5", "w") as file:
+                file["summary/force_x"], file["summary/force_y"] = -20.0, 0.0
+                file.create_group("history")
+                file["scene/used"] = f"&scene\n  analysis = '{analysis}'\n/\n&bearing\n  radius = 0.02 ! [m]\n/\n&operation\n" + \
+                    f"  load = {load} ! [N]\n"*bool(load) + "/\n"
+                scene = plot_scene.read_scene(file)
+            self.assertEqual((scene.words, abs(scene.load_angle)), (words, angle))
 
     def test_calls(self):
         bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))

@@ -58,26 +58,33 @@ def read_coefficients(path, point=None):
         return frequency, *both
 
 
-def read_speeds(path):
-    """The same of all points of a sweep over the speed, in the order of their speeds [rad/s]: speeds, frequencies, which all points
-    share, K and C (speed, frequency, row, column)."""
+def read_sweep(path, refusal):
+    """Of a sweep over the speed: speeds, frequencies (speed, frequency) [rad/s], K and C (speed, frequency, row, column); another file is
+    refused with these words."""
     with reading(path), open_results(path) as file:
         if "dynamics/stiffness" not in file or "speed_rpm" not in file.get("history", {}) or file["dynamics/stiffness"].ndim != 4:
-            raise Unreadable(f"{path}: a sweep, but not over speed_rpm with analysis = 'linear_dynamics'; say which of its points (--point, in Python speed_rpm)")
+            raise Unreadable(f"{path}: {refusal}")
         speed = file["history/speed_rpm"].astype(float)[...]*math.pi/30.0
         frequency, *both = (file[f"dynamics/{name}"].astype(float)[...] for name in ("frequency", "stiffness", "damping"))
-        order = numpy.argsort(speed)
-        if frequency.ndim != 2 or any(
-                values.shape not in ((len(speed), frequency.shape[1], n, n) for n in MOTIONS) for values in both):
+        frequency = frequency.reshape(len(speed), -1)  # one a speed is a plain list
+        if any(values.shape not in ((*frequency.shape, n, n) for n in MOTIONS) for values in both):
             raise ValueError("stiffness and damping are neither 4 x 4 a speed and frequency, nor 3 x 3 of a thrust bearing")
-        if (frequency != frequency[0]).any():
-            raise Unreadable(f"{path}: a table over the speed needs the same frequencies at all speeds: give &dynamics frequencies, "
-                             "not frequency_ratios, or say which point (--point, in Python speed_rpm)")
-        lost = [number for number, values in enumerate(zip(*both), 1) if not numpy.isfinite(values).all()]
-        if lost or len(set(speed)) < len(speed):
-            raise Unreadable(f"{path}: a table over the speed needs speeds that differ, and an answer at each; "
-                             + (f"point {lost[0]} has none" if lost else "there are equal ones"))
-        return speed[order], frequency[0], *(values[order] for values in both)
+        return speed, frequency, *both
+
+
+def read_speeds(path):
+    """The same in the order of the speeds, with one row of frequencies, which all of them share."""
+    speed, frequency, *both = read_sweep(path, "a sweep, but not over speed_rpm with analysis = 'linear_dynamics'; say which of its points (--point, "
+                                         "in Python speed_rpm)")
+    if (frequency != frequency[0]).any():
+        raise Unreadable(f"{path}: a table over the speed needs the same frequencies at all speeds: give &dynamics frequencies, "
+                         "not frequency_ratios, or say which point (--point, in Python speed_rpm)")
+    lost = [number for number, values in enumerate(zip(*both), 1) if not numpy.isfinite(values).all()]
+    if lost or len(set(speed)) < len(speed):
+        raise Unreadable(f"{path}: a table over the speed needs speeds that differ, and an answer at each; "
+                         + (f"point {lost[0]} has none" if lost else "there are equal ones"))
+    order = numpy.argsort(speed)
+    return speed[order], frequency[0], *(values[order] for values in both)
 
 
 def speeds_of(path):
@@ -108,19 +115,17 @@ def read_at_speed(path, speed_rpm):
 
 def read_synchronous(path):
     """Of a sweep over the speed, in the order of the speeds [rad/s]: speeds, K and C (speed, row, column) at the frequency that equals the speed."""
-    speeds = speeds_of(path)
-    if speeds is None or not is_sweep(path):
-        raise Unreadable(f"{path}: synchronous coefficients are of a sweep over speed_rpm with analysis = 'linear_dynamics'")
-    found = []
-    for speed_rpm in sorted(speeds):
-        frequency, *both = read_at_speed(path, speed_rpm)
-        speed = speed_rpm*math.pi/30.0
-        nearest = int(numpy.argmin(abs(frequency - speed)))
-        if abs(frequency[nearest] - speed) > SAME*speed:
-            raise Unreadable(f"{path}: no coefficients of vibrations at the speed, {speed_rpm:g} rpm: give frequency_ratios with 1.0, or "
+    speed, frequency, *both = read_sweep(path, "synchronous coefficients are of a sweep over speed_rpm with analysis = 'linear_dynamics'")
+    nearest = numpy.argmin(abs(frequency - speed[:, None]), axis=1)
+    order = numpy.argsort(speed, kind="stable")
+    for one in order:
+        words = f"{speed[one]*30.0/math.pi:g} rpm"
+        if not all(numpy.isfinite(values[one]).all() for values in both):
+            raise Unreadable(f"{path}: there is no answer at {words}")
+        if abs(frequency[one, nearest[one]] - speed[one]) > SAME*speed[one]:
+            raise Unreadable(f"{path}: no coefficients of vibrations at the speed, {words}: give frequency_ratios with 1.0, or "
                              "frequencies with all speeds [rad/s]")
-        found.append((speed, *(values[nearest] for values in both)))
-    return tuple(map(numpy.array, zip(*found)))
+    return speed[order], *(values[order, nearest[order]] for values in both)
 
 
 def is_sweep(path):

@@ -16,6 +16,7 @@ WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle":
          "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
          "minimum_pressure": "smallest pressure, absolute", "axial_gap": "axial gap", "axial_force": "axial force",
          "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
+MOVING = ("transient", "periodic")  # analyses in which the film's force changes and the load stays
 NEAR = 1.0e-4  # of the film's force: a load that differs less is it
 MOST_PADS = 1000  # more are none of gfb
 SAME = 1.0e-9  # of the largest value: edges that differ less are one line
@@ -63,8 +64,10 @@ def read_scene(file):
     words, history = [], file["history"]
     if "force_x" in summary and "force_y" in summary:
         force = complex(summary["force_x"][()], summary["force_y"][()])
-        words.append(f"{'load' if carries_load(keys, history, abs(force)) else 'film force'} {abs(force):.4g} N")
-        scene.load_angle = math.degrees(math.atan2(force.imag, force.real)) if abs(force) > 0.0 else None
+        load = load_of(keys, history, force)
+        pressing = force if load is None else load
+        words.append(f"{'film force' if load is None else 'load'} {abs(pressing):.4g} N")
+        scene.load_angle = math.degrees(math.atan2(pressing.imag, pressing.real)) if abs(pressing) > 0.0 else None
     if "axial_force" in summary:
         words.append(f"{summary['axial_force'][()]:.4g} N on {int(number(keys, 'pads', 'count') or 1)} pads")
     speed = history["speed_rpm"][-1] if "speed_rpm" in history else number(keys, "operation", "speed_rpm")
@@ -75,11 +78,14 @@ def read_scene(file):
     return scene
 
 
-def carries_load(keys, history, force):
-    """Whether the film's force is the load asked for: in a sweep of tilt with the shaft fixed it is not."""
-    given = numpy.hypot(*map(float, keys["operation", "load"][0].split(","))) if ("operation", "load") in keys else numpy.nan
-    load = history["load"][-1] if "load" in history else given
-    return abs(load - force) <= NEAR*force
+def load_of(keys, history, force):
+    """The load that is asked for [N], None where none is: a shaft that moves has another film force, a balanced one the load's, and one
+    that is fixed, as in a sweep of tilt, the film's force alone."""
+    given = complex(*map(float, keys["operation", "load"][0].split(","))) if ("operation", "load") in keys else None
+    if keys.get(("scene", "analysis"), ("",))[0].strip("'") in MOVING:
+        return given
+    size = history["load"][-1] if "load" in history else numpy.nan if given is None else abs(given)
+    return force if abs(size - abs(force)) <= NEAR*abs(force) else None
 
 
 def leading_edges(keys):
