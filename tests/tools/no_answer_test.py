@@ -15,7 +15,7 @@ SAID = re.compile(r"(?:log%(?:line|warning)\(|\b(?:problem|reason|detail|ending|
 # What these files say where nothing is missing: answers, heads of tables, assumptions.
 ANSWERS = ("contacts that slide to and fro, at", "amplitude [m]   Kxx", "heat: temperatures stay as they are", "contacts: closed ones stay closed",
            "losses: loss_factor acts", "losses: viscous ones of the foils", "frequency [rad/s] (over speed)", "axial mode of", "modes: frequency [rad/s]",
-           "more die out in less than a turn", "unstable, its", "least damped mode (", "the first point,", ", frequency ratio",
+           "more die out in less than a turn", "frequencies put between the", "unstable, its", "least damped mode (", "the first point,", ", frequency ratio",
            ", largest multiplier", "periods marched, each in", "onset of whirl at", "restart: resumed from",
            "of them taken again shorter", "film and foils are stored at", "the orbit is steady")
 LITERAL = re.compile(r"'((?:[^']|'')*)'")

@@ -7,9 +7,10 @@
 !> by what the function says; what it moves next is less by orders of magnitude.
 !>
 !> The function also tells where frequencies must stand so that straight lines from one to the next are the coefficients. Lines
-!> between two neighbours are compared with it in the middle and next to each rate \( -\delta + i \omega \) of a motion that film and
-!> foil have by themselves while the shaft is held: at \( \omega \), where its peak is, and at \( \omega \pm \delta \), where its
-!> sides are steepest. Where the line misses most another frequency is put. By itself that costs no factorization.
+!> between two neighbours are compared with it at quarters of their way and next to each rate \( -\delta + i \omega \) of a motion
+!> that film and foil have by themselves while the shaft is held: at \( \omega \), where its peak is, and at
+!> \( \omega \pm \delta \), where its sides are steepest. A line that misses anywhere is halved, so that frequencies do not hang on
+!> the last digits of a rate. By itself a frequency costs no factorization.
 module gfb_frequency_response
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
@@ -180,7 +181,7 @@ contains
       joined%by_function = is_function(model)
       if (.not. joined%by_function) exit
       if (response%factorizations == samples) then
-        call cut_lines(response, model, frequency, place, tolerance, closer, joined%largest_miss)
+        call halve_lines(response, model, frequency, place, tolerance, closer, joined%largest_miss)
         if (size(closer) == size(frequency) .or. size(closer) > most_joined) return
         call move_alloc(closer, frequency)
       end if
@@ -199,13 +200,14 @@ contains
     real(wp), allocatable :: place(:)    !! [rad/s]
 
     associate (n => size(frequency), peak => aimag(pole), width => abs(real(pole, wp)))
-      place = [0.5_wp*(frequency(:n - 1) + frequency(2:)), peak - width, peak, peak + width]
+      place = [0.75_wp*frequency(:n - 1) + 0.25_wp*frequency(2:), 0.5_wp*(frequency(:n - 1) + frequency(2:)), &
+               0.25_wp*frequency(:n - 1) + 0.75_wp*frequency(2:), peak - width, peak, peak + width]
       place = pack(place, place > frequency(1) .and. place < frequency(n))
     end associate
   end function places_to_look
 
-  !> Puts a frequency on each line that misses, where it misses most.
-  pure subroutine cut_lines(response, model, frequency, place, tolerance, closer, largest_miss)
+  !> Puts a frequency in the middle of each line that misses.
+  pure subroutine halve_lines(response, model, frequency, place, tolerance, closer, largest_miss)
     type(dynamic_response_type), intent(in) :: response !! whose coefficients they are
     type(frequency_response_type), intent(in) :: model !! of it
     real(wp), intent(in) :: frequency(:) !! rising [rad/s]
@@ -214,28 +216,25 @@ contains
     real(wp), allocatable, intent(out) :: closer(:) !! the frequencies with those that were put between them [rad/s]
     real(wp), intent(out) :: largest_miss !! of all lines [1]
     complex(wp), allocatable, dimension(:, :) :: below, above
-    real(wp) :: miss, worst, cut
+    real(wp) :: miss
     integer :: i, k
 
-    cut = 0.0_wp
     closer = frequency(:1)
     largest_miss = 0.0_wp
     above = coefficients_at(response, model, frequency(1))
     do i = 2, size(frequency)
       below = above
       above = coefficients_at(response, model, frequency(i))
-      worst = 0.0_wp
+      miss = 0.0_wp
       do k = 1, size(place)
         if (place(k) <= frequency(i - 1) .or. place(k) >= frequency(i)) cycle
-        miss = miss_of_line(frequency(i - 1:i), place(k), below, above, coefficients_at(response, model, place(k)))
-        if (miss > worst) cut = place(k)
-        worst = max(worst, miss)
+        miss = max(miss, miss_of_line(frequency(i - 1:i), place(k), below, above, coefficients_at(response, model, place(k))))
       end do
-      if (worst > tolerance) closer = [closer, cut]
+      if (miss > tolerance) closer = [closer, 0.5_wp*(frequency(i - 1) + frequency(i))]
       closer = [closer, frequency(i)]
-      largest_miss = max(largest_miss, worst)
+      largest_miss = max(largest_miss, miss)
     end do
-  end subroutine cut_lines
+  end subroutine halve_lines
 
   !> How far lines between two frequencies miss K and C, over their largest entry of like coordinates.
   pure function miss_of_line(ends, place, below, above, here) result(miss)
