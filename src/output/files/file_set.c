@@ -177,14 +177,14 @@ static void remove_backups(int count, const char *names)
   }
 }
 
-/* Puts back what stood under the first names. */
-static void put_back(int count, const char *names)
+/* Puts back what stood under the names; where nothing did, the first names, which were given already, go. */
+static void put_back(int given, int count, const char *names)
 {
   char backup[PATH_MAX + 8];
 
   for (int i = 0; i < count; i++, names = next_word(next_word(names))) {
     backup_name(names, backup);
-    if (rename(backup, next_word(names)) != 0) unlink(next_word(names));
+    if (rename(backup, next_word(names)) != 0 && i < given) unlink(next_word(names));
   }
 }
 
@@ -211,17 +211,20 @@ int gfb_publish(const char *folder, int count, const char *names, size_t length,
       *culprit = done;
     } else done++;
   }
-  if (status != 0) put_back(done, names);
+  if (status != 0) {
+    if (ftruncate(file, (off_t)length) != 0) unlink(list); /* what is put back is not to be renamed by a later run */
+    put_back(done, count, names);
+  }
   sync_folder(folder);
-  unlink(list);
   remove_backups(count, names);
+  unlink(list); /* last: who finds it knows what else there may be */
   close(file);
   return status;
 }
 
 /* --- what dead runs have left --- */
 
-/* Finishes a renaming that was interrupted when its list was whole; takes the backups away in any case. */
+/* Finishes a renaming that was interrupted when its list was whole, or puts back what was kept; no backup is left. */
 static void finish_list(int file)
 {
   struct stat about;
@@ -238,9 +241,33 @@ static void finish_list(int file)
     words -= whole;
     for (const char *name = names; whole && name < names + length - sizeof journal_end; name = next_word(next_word(name)))
       rename(name, next_word(name));
+    if (!whole) put_back(0, words/2, names);
     remove_backups(words/2, names);
   }
   free(names);
+}
+
+static int is_backup(const char *name)
+{
+  size_t length = strlen(name), end = strlen(backup_end);
+
+  return length > end && strcmp(name + length - end, backup_end) == 0;
+}
+
+/* Whether the owner of a backup has a list in the folder, which is there before the backup and goes after it. */
+static int has_list(const char *folder, const char *backup)
+{
+  char           begin[NAME_MAX + 1];
+  const char    *owner = backup + strlen(unfinished);
+  struct dirent *entry;
+  DIR           *all = opendir(folder);
+  int            found = 0;
+
+  if (!all) return 1;
+  snprintf(begin, sizeof begin, "%s%.*s-", journal, (int)strcspn(owner, "-"), owner);
+  while (!found && (entry = readdir(all))) found = strncmp(entry->d_name, begin, strlen(begin)) == 0;
+  closedir(all);
+  return found;
 }
 
 /* Takes away what stands unfinished in a folder and has no living owner. */
@@ -256,8 +283,11 @@ void gfb_clear_folder(const char *folder)
       const char *begin = lists ? journal : unfinished;
       int         file;
       if (strncmp(entry->d_name, begin, strlen(begin)) != 0) continue;
-      if (strstr(entry->d_name, backup_end)) continue; /* a list's */
       if (snprintf(name, sizeof name, "%s/%s", folder, entry->d_name) >= (int)sizeof name) continue;
+      if (is_backup(entry->d_name)) { /* no owner locks it */
+        if (!has_list(folder, entry->d_name)) unlink(name);
+        continue;
+      }
       file = open(name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
       if (file < 0) continue;
       if (flock(file, LOCK_EX | LOCK_NB) == 0) {

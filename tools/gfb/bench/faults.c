@@ -1,6 +1,7 @@
 /* Preloaded: makes one operation on the files of a folder fail. GFB_FAULT_FOLDER: the folder. GFB_FAULT_AT: number of the
    operation, from 1. GFB_FAULT_KIND: once (it fails), full (so do all that need room from then on), kill (the process
-   ends there). The number of operations is written to GFB_FAULT_COUNT where that is a file's name. */
+   ends there; then removals count, too). GFB_FAULT_LINKS=none: the file system has no links. The number of operations is
+   written to GFB_FAULT_COUNT where that is a file's name. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -111,10 +112,25 @@ int rename(const char *old, const char *new)
 
 int link(const char *old, const char *new)
 {
+  const char *links = getenv("GFB_FAULT_LINKS");
   NEXT(int, "link", const char *, const char *);
+
   if (is_inside(old) && fails(1)) {
     errno = ENOSPC;
     return -1;
   }
+  if (is_inside(old) && links && strcmp(links, "none") == 0) {
+    errno = EPERM;
+    return -1;
+  }
   return next(old, new);
+}
+
+int unlink(const char *path)
+{
+  const char *kind = getenv("GFB_FAULT_KIND");
+  NEXT(int, "unlink", const char *);
+
+  if (is_inside(path) && kind && strcmp(kind, "kill") == 0) fails(0);
+  return next(path);
 }

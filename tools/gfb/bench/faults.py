@@ -26,10 +26,10 @@ WORDS = """# Faults on purpose
 
 A bearing of 32 x 4 elements is run into a folder that holds its results for another load. At each of its operations on files
 in turn (create, write, sync, link, rename) that operation fails, or it and all that need room from then on, or the process is
-killed. *Done all the same*: status 0 and the new set whole (after a kill: one whole set, once another run has used the folder);
-*refused*: status 3, a sentence, and the old set whole, to which nothing was added; *wrong*: anything else, such as a crash, a
-mixed set, a file left behind. `tools/bench faults --page` writes this page; [failures.md](../manual/failures.md) says what to
-expect.
+killed (at removals, too); again where the file system has no hard links. *Done all the same*: status 0 and the new set whole
+(after a kill: one whole set, once another run has used the folder); *refused*: status 3, a sentence, and the old set whole,
+to which nothing was added; *wrong*: anything else, such as a crash, a mixed set, a file left behind. `tools/bench faults
+--page` writes this page; [failures.md](../manual/failures.md) says what to expect.
 
 """
 CRASH = ("SIGSEGV", "Segmentation", "Backtrace", "MPI_ABORT", "PETSC ERROR", "HDF5-DIAG", "Fortran runtime error")
@@ -147,8 +147,8 @@ class Faults:
         """A run over it."""
         return call(self.gfb, self.folder/"new/case.nml", place, **more)
 
-    def operations(self, library, kind, step=1, ranks=1):
-        """A fault at each operation in turn."""
+    def operations(self, library, kind, step=1, ranks=1, links=True):
+        """A fault at each operation in turn, on a file system with or without links."""
         survived, refused, wrong, at = 0, 0, [], 1
         count = self.folder/"count"
         while True:
@@ -156,7 +156,7 @@ class Faults:
             count.unlink(missing_ok=True)
             status, complaint = self.over(place, ranks=ranks, environment={
                 "LD_PRELOAD": str(library), "GFB_FAULT_FOLDER": str(place), "GFB_FAULT_AT": str(at),
-                "GFB_FAULT_KIND": kind, "GFB_FAULT_COUNT": str(count)})
+                "GFB_FAULT_KIND": kind, "GFB_FAULT_COUNT": str(count), "GFB_FAULT_LINKS": "" if links else "none"})
             if kind == "kill":
                 if status == 0:
                     break
@@ -176,7 +176,7 @@ class Faults:
             at += step
         tried = (at - 1 + step - 1)//step
         return Row({"once": "one call fails", "full": "disk full from a call on", "kill": "killed at a call"}[kind] +
-                   (f", {ranks} ranks" if ranks > 1 else ""), tried, survived if kind != "kill" else tried - len(wrong),
+                   (f", {ranks} ranks" if ranks > 1 else "") + ("" if links else ", no links on the disk"), tried, survived if kind != "kill" else tried - len(wrong),
                    refused, wrong)
 
     def after_kill(self, place, status):
@@ -288,9 +288,10 @@ def all_rows(gfb, long=True):
         library = build_library(name)
         if library:
             rows.append(faults.operations(library, "once", step=1 if long else 5))
+            rows += [faults.operations(library, "kill", step=1 if long else 4, links=links) for links in (True, False)]
             if long:
+                rows += [faults.operations(library, kind, links=False) for kind in ("once", "full")]
                 rows.append(faults.operations(library, "full"))
-                rows.append(faults.operations(library, "kill"))
                 rows.append(faults.operations(library, "full", ranks=2))
         rows.append(faults.small_disk([4096*i for i in range(40 if long else 5)]))
         rows.append(faults.damaged(200 if long else 10))
