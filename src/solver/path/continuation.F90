@@ -47,7 +47,7 @@ module gfb_continuation
   integer, parameter :: most_smooth_moves = 600    !! without contacts, where moves cost next to nothing
   integer, parameter :: easy_iterations = 6        !! a move that took no more of them is doubled
 
-  integer, parameter :: max_iterations = 20          !! of a step that can be cut
+  integer, parameter :: max_iterations = 20          !! of a step or move that can be cut
   real(wp), parameter :: shortest_first = 0.01_wp    !! least step over the first one [1]
   integer, parameter :: closing_steps = 40           !! more, where the gap is closing
   integer, parameter :: most_rescues = 4             !! of a path on which no step leads on
@@ -113,6 +113,7 @@ contains
     most = merge(most_moves, most_smooth_moves, bearing%has_contacts())
     call create_bordered_system(bearing, target, path)
     call create_newton(mover, path, 'bearing_', newton%settings, newton%log)
+    mover%settings%maximum_iterations = min(mover%settings%maximum_iterations, max_iterations) ! a move can be cut
     PetscCallA(VecDuplicate(path%state, farthest, ierr))
     PetscCallA(VecCopy(path%state, farthest, ierr))
     if (any_rank(size(bearing%pad(1)%edge%unknown) > 0)) then
