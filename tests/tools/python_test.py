@@ -11,6 +11,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
+from gfb.design_study import tell_tilt  # noqa: E402
 from gfb.results import Unreadable, read_history  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 
@@ -103,6 +104,15 @@ class PythonTest(unittest.TestCase):
         with self.assertRaises(gfb.CaseError):
             case["bearing%radius"] = -1.0
             gfb.design(case, self.folder, "wrong", tell=said.append)
+
+    def test_time_of_a_tilt(self):
+        point, said = {"factorizations": 30.0, "wall_time": 18.0}, []
+        tell_tilt(gfb.Case(SMALL), point, said.append)
+        self.assertEqual(said, [], "a rigid bearing takes no time")
+        sectors = {"bearing": {"kind": "thrust"}, "pads": {"count": 6}, "model": {"foil": "shell"}}
+        for groups, words in (({"model": {"foil": "shell"}}, ": 1.6 to 16 min"), (sectors, ": 4.8 to 48 min")):
+            tell_tilt(gfb.Case(groups), point, said.append)
+            self.assertIn(words, said[-1])
 
     def test_sectors(self):
         case = gfb.Case.template("thrust")

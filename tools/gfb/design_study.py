@@ -26,7 +26,7 @@ from gfb.case import Case, CaseError
 from gfb.door import DONE, ENDINGS, find_member, run_member
 from gfb.report.glance import carried_by, glance
 from gfb.report.main import read_run, write_page
-from gfb.results import read_history
+from gfb.results import read_history, read_summary
 from gfb.tool import draw_into_files, say
 
 DIRECTIONS = 12                      # of the load, around the bearing
@@ -37,6 +37,7 @@ SMALLEST_GAP = 4.0e-6                # m: the film at which load and tilt have r
 GRADE = 2.5                          # mm/s, ISO 21940-11: of turbines
 IDLE = re.compile(r"&sensitivity: parameters(?:\(\d+\))? = '([\w%]+)'")  # a key whose tolerance is none of this case
 ORBIT_TURNS, ORBIT_STEADY = 60, 1.0e-3
+TILT_FACTORIZATIONS = (80, 800)      # of a misalignment on shells, as those of docs/manual/design.md took
 STATE = ("scene", "bearing", "pads", "ramp", "bore", "gas", "shaft_contact", "thermal", "operation", "model", "mesh", "top_foil",
          "bump_foil", "contact", "solver", "output")
 # What a drawing leaves open, as a standard deviation: a length [m], or a part of the value.
@@ -108,10 +109,23 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
             left = (time.monotonic() - began)*(len(todo) - done)/done
             tell(f"{done} of {len(todo)}: {part.question}" + ("" if status == DONE else ": no answer")
                  + (f"; about {left:.0f} s left" if done < len(todo) else ""))
+            if part.name == "point" and status == DONE and any(other.name == "misalignment" for other in todo):
+                tell_tilt(case, read_summary(f"{stem}.summary")[0], tell)
 
     with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
         list(pool.map(compute, todo))
     return Design(parts, rows_of(parts, gfb), folder, name)
+
+
+def tell_tilt(case: Case, point: dict[str, Any], tell: Callable[[str], None]) -> None:
+    """Says how long a misalignment on shells may take, by the operating point's time a factorization: a tilt takes the whole width of a
+    journal, and all pads of a thrust bearing instead of one."""
+    if case.groups.get("model", {}).get("foil") != "shell" or not point["factorizations"]:
+        return
+    larger = int(case["pads%count"]) if case.is_thrust() else 2
+    least, most = (number*larger*point["wall_time"]/point["factorizations"]/60.0 for number in TILT_FACTORIZATIONS)
+    tell(f"misalignment left: shells under a tilt, {larger} times the unknowns and {TILT_FACTORIZATIONS[0]} to {TILT_FACTORIZATIONS[1]} factorizations: "
+         f"{least:.2g} to {most:.2g} min where nothing else runs")
 
 
 # --- the parts ---
