@@ -9,7 +9,9 @@
 !> come from the eigenvalues next to the shift, and are counted along the circle by the determinant, which knows nothing of
 !> the eigenvalues' method: where one is missing more eigenvalues are looked for. In the circle are all modes that lose less
 !> than half the speed, up to 1.5 times the speed. The mode of the rotor that decides is solved for once more with the
-!> determinant. Dampers beside springs that have no unknowns of their own, and Maxwell arms, are let grow from nothing,
+!> determinant. Springs with dampers that relax by themselves (`gfb_rotor_pencil`) are left out where the circle comes near the
+!> disc in which their rates lie: it goes past the disc or round it, and as many zeros as were counted in the disc are divided
+!> out at its centre. Dampers beside springs that have no unknowns of their own, and Maxwell arms, are let grow from nothing,
 !> and the rotor's modes are followed. A loss factor is defined for steady vibrations alone, so with one there are no
 !> growth rates.
 !>
@@ -47,7 +49,7 @@ module gfb_rotor_modes
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure
   use gfb_rotor, only: rotor_type, cylindrical, dynamic_matrix, determinant, kinds_of, whirl_sense
   use gfb_text, only: text
-  use gfb_rotor_pencil, only: pencil_mode_type, find_pencil_modes, has_pencil, skip_inner_modes
+  use gfb_rotor_pencil, only: pencil_mode_type, relaxation_type, find_pencil_modes, has_pencil, skip_inner_modes, relaxation_of
   use gfb_vibration_equations, only: vibration_type
   implicit none (type, external)
   private
@@ -66,11 +68,13 @@ module gfb_rotor_modes
     real(wp) :: centre = 0.0_wp           !! [1/s]
     real(wp) :: radius = 0.0_wp           !! [1/s]
     complex(wp), allocatable :: known(:)  !! zeros, one of each conjugate pair [1/s]
+    integer :: steps = first_steps        !! in which the half circle is divided at first
+    integer, private :: at_centre = 0     !! zeros that are known as well
     real(wp), allocatable :: angle(:)     !! of the places so far, rising from 0 to pi [rad]
     complex(wp), allocatable :: value(:)  !! logarithm of g there [1]
     logical :: failed = .false.           !! the circle runs through a zero
   contains
-    procedure :: next, tell, place, missing
+    procedure :: next, tell, place, missing, put_at_centre, mean
   end type mode_count_type
 
   real(wp), parameter :: first_move = 1.0e-5_wp !! of the secant method, over the rate [1]
@@ -81,7 +85,6 @@ module gfb_rotor_modes
 
   real(wp), parameter :: shift = 0.5_wp        !! next to which modes are looked for, over the speed [1]
   real(wp), parameter :: highest = 1.5_wp      !! frequency of a mode that is told, over the speed [1]
-  real(wp), parameter :: least_radius = sqrt(1.0_wp + highest**2) !! about the shift: rates of -0.5 + 1.5 i, over the speed [1]
   real(wp), parameter :: room = 1.3_wp         !! of the largest circle over the least [1]
   !> Of the rotor in a mode of its own: those of foils have some thousandths, the rotor's a tenth and more [1].
   real(wp), parameter :: least_share = 0.02_wp
@@ -121,8 +124,8 @@ contains
     if (count%failed) return
     if (.not. allocated(count%angle)) then
       angle = 0.0_wp
-    else if (size(count%angle) <= first_steps) then
-      angle = pi*real(size(count%angle), wp)/real(first_steps, wp)
+    else if (size(count%angle) <= count%steps) then
+      angle = pi*real(size(count%angle), wp)/real(count%steps, wp)
     else
       do i = 2, size(count%angle)
         if (abs(step(count, i)) <= largest_step) cycle
@@ -150,7 +153,7 @@ contains
     complex(wp) :: left
     integer :: i, before
 
-    left = logarithm
+    left = logarithm - count%at_centre*log(count%place(angle) - count%centre)
     do i = 1, size(count%known)
       left = left - log(count%place(angle) - count%known(i))
       if (aimag(count%known(i)) <= 0.0_wp) cycle
@@ -163,6 +166,28 @@ contains
     count%failed = size(count%angle) > most_places
     if (before > 0) count%failed = count%failed .or. angle - count%angle(before) < smallest_step
   end subroutine tell
+
+  !> Mean of the logarithm's real part along the circle, from its first places.
+  pure real(wp) function mean(count)
+    class(mode_count_type), intent(in) :: count
+    associate (level => real(count%value, wp), last => size(count%value))
+      mean = (sum(level(2:last - 1)) + 0.5_wp*(level(1) + level(last)))/real(last - 1, wp)
+    end associate
+  end function mean
+
+  !> Takes a number of zeros to lie at the centre; values that were told follow.
+  pure subroutine put_at_centre(count, zeros)
+    class(mode_count_type), intent(inout) :: count
+    integer, intent(in) :: zeros !! all of them, those of before too
+    integer :: i
+
+    if (allocated(count%angle)) then
+      do i = 1, size(count%angle)
+        count%value(i) = count%value(i) - (zeros - count%at_centre)*log(count%place(count%angle(i)) - count%centre)
+      end do
+    end if
+    count%at_centre = zeros
+  end subroutine put_at_centre
 
   !> Zeros in the circle that are not known, where the count is complete; each of a conjugate
   !> pair counts.
@@ -212,6 +237,26 @@ contains
     end if
     if (present(of_film)) of_film = logarithm - of_rotor
   end subroutine find_determinant
+
+  !> Visits the first places of a circle.
+  subroutine begin_circle(bearing, response, rotor, kind, count, found)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it
+    type(rotor_type), intent(in) :: rotor !! on the bearing
+    integer, intent(in) :: kind !! of the motions
+    type(mode_count_type), intent(inout) :: count !! along the circle
+    logical, intent(out) :: found !! the matrices could be factorized
+    complex(wp) :: logarithm
+    real(wp) :: angle
+    integer :: i
+
+    do i = 0, count%steps
+      angle = count%next()
+      call find_determinant(bearing, response, rotor, kind, count%place(angle), logarithm, found)
+      if (.not. found) return
+      call count%tell(angle, logarithm)
+    end do
+  end subroutine begin_circle
 
   !> Counts the modes in a circle about a real rate that are not known.
   subroutine count_missing(bearing, response, rotor, kind, count, missing, found)
@@ -380,20 +425,20 @@ contains
     type(pencil_mode_type), allocatable, intent(out) :: modes(:) !! in the circle
     character(len=:), allocatable, intent(out) :: reason !! why they were not found
     type(mode_count_type) :: count
-    complex(wp), allocatable :: known(:)
-    real(wp) :: reach
+    type(relaxation_type) :: relaxation
+    real(wp) :: reach, radius(2)
     integer :: wanted, missing
     logical :: found
 
     wanted = first_wanted
+    relaxation = relaxation_of(response)
+    call pass_disc(relaxation, bearing%point%speed, radius)
     do
-      call find_pencil_modes(bearing, response, rotor, kind, shift*bearing%point%speed, wanted, modes, reach, found)
+      call find_pencil_modes(bearing, response, rotor, kind, shift*bearing%point%speed, wanted, modes, reach, found, relaxation)
       if (.not. found) exit
-      if (reach >= room*least_radius*bearing%point%speed) then
-        known = modes%rate ! in a structure constructor GNU Fortran 12 takes wrong strides
-        count = mode_count_type(shift*bearing%point%speed, circle_between(modes, bearing%point%speed), known)
+      if (reach >= radius(2)) then
         call skip_inner_modes(response, .true.)
-        call count_missing(bearing, response, rotor, kind, count, missing, found)
+        call count_beside(bearing, response, rotor, kind, modes, radius, relaxation, count, missing, found)
         call skip_inner_modes(response, .false.)
         if (.not. (found .or. count%failed)) exit
         modes = pack(modes, abs(modes%rate - count%centre) < count%radius)
@@ -412,24 +457,111 @@ contains
     if (.not. allocated(reason)) reason = response_failure(response)
   end subroutine find_all_modes
 
-  !> Radius of a circle about the shift that holds all rates that are asked for, in the widest gap between the modes a
-  !> little beyond.
-  pure function circle_between(modes, speed) result(radius)
-    type(pencil_mode_type), intent(in) :: modes(:) !! nearest first
+  !> Least and largest radius of the circle about the shift: it holds all rates that are asked for, and runs through no rate of
+  !> springs that relax, whose disc it leaves outside where half of the room is before it, and holds else.
+  pure subroutine pass_disc(relaxation, speed, radius)
+    type(relaxation_type), intent(inout) :: relaxation !! none where the circle does not come near it
     real(wp), intent(in) :: speed !! of the shaft [rad/s]
+    real(wp), intent(out) :: radius(2) !! [1/s]
+    real(wp) :: near, far ! distances of the disc from the shift
+
+    radius = [1.0_wp, room]*sqrt(1.0_wp + highest**2)*speed ! rates of -0.5 + 1.5 i over the speed, from the shift
+    near = shift*speed - relaxation%rate - room*relaxation%radius
+    far = near + 2.0_wp*room*relaxation%radius
+    relaxation%present = relaxation%present .and. near < room*radius(2)
+    if (.not. relaxation%present .or. far <= radius(1) .or. near >= radius(2)) return
+    if (near >= sqrt(room)*radius(1)) then
+      radius(2) = near
+    else
+      radius = [1.0_wp, room]*far
+    end if
+  end subroutine pass_disc
+
+  !> Counts the modes in a circle in the widest gap between those that are known, but for springs that relax.
+  subroutine count_beside(bearing, response, rotor, kind, modes, radius, relaxation, count, missing, found)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    type(rotor_type), intent(in) :: rotor
+    integer, intent(in) :: kind
+    type(pencil_mode_type), intent(in) :: modes(:) !! nearest to the shift first
+    real(wp), intent(in) :: radius(2) !! least and largest [1/s]
+    type(relaxation_type), intent(in) :: relaxation
+    type(mode_count_type), intent(out) :: count !! along the circle, or where that failed
+    integer, intent(out) :: missing
+    logical, intent(out) :: found
+    complex(wp), allocatable :: known(:)
+    real(wp) :: centre, reach
+    integer :: relaxing, i
+
+    known = modes%rate ! in a structure constructor GNU Fortran 12 takes wrong strides
+    centre = shift*bearing%point%speed
+    reach = circle_between(modes, centre, radius)
+    if (relaxation%present) then
+      count = mode_count_type(relaxation%rate, circle_between(modes, relaxation%rate, [1.0_wp, room]*relaxation%radius), known)
+      call count_relaxing(bearing, response, rotor, kind, centre - relaxation%rate < reach, count, relaxing, found)
+      if (.not. found) return
+      known = [known, (cmplx(relaxation%rate, 0.0_wp, wp), i=1, relaxing)]
+    end if
+    count = mode_count_type(centre, reach, known)
+    call count_missing(bearing, response, rotor, kind, count, missing, found)
+  end subroutine count_beside
+
+  !> Counts the modes in a disc that are not known. The mean of the logarithm's real part along a circle grows with the logarithm
+  !> of the radius by what is inside (Jensen's formula). With as many taken to lie at the centre the phase has to come back as it
+  !> was; where it does not, the steps were too long. Of a disc outside the circle about how many will do.
+  subroutine count_relaxing(bearing, response, rotor, kind, inside, count, relaxing, found)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    type(rotor_type), intent(in) :: rotor
+    integer, intent(in) :: kind
+    logical, intent(in) :: inside !! the circle
+    type(mode_count_type), intent(inout) :: count !! along the disc's
+    integer, intent(out) :: relaxing
+    logical, intent(out) :: found
+    type(mode_count_type) :: around
+    integer :: more
+
+    do while (count%steps < most_places)
+      around = mode_count_type(count%centre, room*count%radius, count%known, count%steps)
+      call begin_circle(bearing, response, rotor, kind, around, found)
+      if (found) call begin_circle(bearing, response, rotor, kind, count, found)
+      if (.not. found) return
+      relaxing = nint((around%mean() - count%mean())/log(room))
+      if (.not. inside) return
+      call count%put_at_centre(relaxing)
+      call count_missing(bearing, response, rotor, kind, count, more, found)
+      if (.not. found .or. more == 0) return
+      count = mode_count_type(count%centre, count%radius, count%known, 2*count%steps)
+    end do
+    count%failed = .true.
+    found = .false.
+  end subroutine count_relaxing
+
+  !> Radius of a circle in the widest gap between modes.
+  pure function circle_between(modes, centre, limits) result(radius)
+    type(pencil_mode_type), intent(in) :: modes(:) !! that are known
+    real(wp), intent(in) :: centre    !! of the circle [1/s]
+    real(wp), intent(in) :: limits(2) !! least and largest radius [1/s]
     real(wp) :: radius !! [1/s]
-    real(wp), allocatable :: ends(:)
+    real(wp) :: widest, last, next
     integer :: i
 
-    allocate (ends(1), source=least_radius*speed)
-    do i = 1, size(modes)
-      associate (distance => abs(modes(i)%rate - shift*speed))
-        if (distance > ends(1) .and. distance < room*ends(1)) ends = [ends, distance]
-      end associate
+    widest = 0.0_wp
+    radius = limits(1)
+    last = limits(1)
+    do while (last < limits(2))
+      next = limits(2)
+      do i = 1, size(modes)
+        associate (distance => abs(modes(i)%rate - centre))
+          if (distance > last) next = min(next, distance)
+        end associate
+      end do
+      if (next - last > widest) then
+        widest = next - last
+        radius = 0.5_wp*(last + next)
+      end if
+      last = next
     end do
-    ends = [ends, room*ends(1)]
-    i = maxloc(ends(2:) - ends(:size(ends) - 1), 1)
-    radius = 0.5_wp*(ends(i) + ends(i + 1))
   end function circle_between
 
   !> Solves for the mode that decides with the determinant, and with the modes inside condensed pieces.
@@ -438,12 +570,14 @@ contains
     type(dynamic_response_type), intent(inout) :: response
     type(rotor_type), intent(in) :: rotor
     type(rotor_answer_type), intent(inout) :: answer
+    type(relaxation_type) :: relaxation
     logical :: other(size(answer%mode))
 
     associate (mode => answer%mode(answer%decides))
       other = answer%mode%kind == mode%kind
       other(answer%decides) = .false.
-      call solve_mode(bearing, response, rotor, mode%kind, mode%rate, answer%found, pack(answer%mode%rate, other))
+      relaxation = relaxation_of(response)
+      call solve_mode(bearing, response, rotor, mode%kind, mode%rate, answer%found, pack(answer%mode%rate, other), relaxation%present)
       if (.not. answer%found) then
         answer%reason = 'the determinant has no zero next to the rotor''s mode of '//text(aimag(mode%rate), 5)// &
                         ' rad/s that the eigenvalues have'

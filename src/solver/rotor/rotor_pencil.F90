@@ -14,6 +14,10 @@
 !> motion has an even and an odd share, each with a u of its own; that of shells is of another bearing. A foil of
 !> mass m has rates \( w = \lambda u \) and \( \lambda m w \) in the first equation, without modes inside pieces.
 !>
+!> Springs with dampers relax alone at \( \lambda = -1/\tau \), one rate a spring, and with the film next to it: there
+!> \( (1 + \lambda\tau) k d = p \), so in the disc \( |\lambda + 1/\tau| < \rho \) pressures are less than \( \rho\tau \)
+!> of the springs' forces. Its rates, of which there is no end, are not looked for.
+!>
 !> Film and foil of one bearing in the eigenvalue problem of a rotor: their entries of its vectors.
 !>
 !> A vector of `gfb_rotor_pencil` holds, on each rank, the unknowns u of each share, and behind them, where the foil
@@ -36,7 +40,7 @@ module gfb_rotor_pencil
   implicit none (type)
   private
   public :: take_rotor, put_rotor, entries_of, take_film, put_film, energies_of, energy_unit, find_pencil_modes, has_pencil, &
-            skip_inner_modes
+            skip_inner_modes, relaxation_of
 
   !> Sizes of the rotor's entries.
   type, public :: rotor_scale_type
@@ -76,6 +80,17 @@ module gfb_rotor_pencil
     real(wp) :: foil_share = 0.0_wp     !! of the foil, 0 .. 1 [1]
   end type pencil_mode_type
 
+  real(wp), parameter :: unnoticed = 0.1_wp !! pressures that relaxing springs are not held by, over their forces [1]
+
+  !> The disc about the rate at which springs relax.
+  type, public :: relaxation_type
+    logical :: present = .false. !! springs have dampers
+    real(wp) :: rate = 0.0_wp   !! its centre, -1/tau [1/s]
+    real(wp) :: radius = 0.0_wp !! [1/s]
+  contains
+    procedure :: has => relaxation_has
+  end type relaxation_type
+
   !> What the product needs.
   type :: pencil_type
     type(share_type), allocatable :: share(:)
@@ -85,6 +100,7 @@ module gfb_rotor_pencil
     real(wp) :: inertia = 0.0_wp              !! [kg], [kg m2]
     real(wp) :: gyration(planar, planar) = 0.0_wp
     real(wp) :: flexibility(planar, planar) = 0.0_wp !! inverse of D at the shift
+    type(relaxation_type) :: left_out         !! modes that are not looked for
   end type pencil_type
 
 contains
@@ -325,8 +341,24 @@ contains
                                                          equations%vibration%loss_factor > 0.0_wp)
   end function has_pencil
 
+  !> Whether a rate lies in the disc.
+  elemental logical function relaxation_has(self, rate) result(has)
+    class(relaxation_type), intent(in) :: self !! the disc
+    complex(wp), intent(in) :: rate !! [1/s]
+    has = self%present .and. abs(rate - self%rate) < self%radius
+  end function relaxation_has
+
+  !> The disc of a bearing's springs.
+  pure type(relaxation_type) function relaxation_of(response) result(relaxation)
+    type(dynamic_response_type), intent(in) :: response !! of a bearing
+    associate (equations => response%equations, time => response%equations%vibration%damping_time)
+      relaxation%present = time > 0.0_wp .and. has_pencil(equations) .and. .not. equations%inertia%present
+      if (relaxation%present) relaxation = relaxation_type(.true., -1.0_wp/time, unnoticed/time)
+    end associate
+  end function relaxation_of
+
   !> Modes next to a real shift, nearest first, one of each complex pair.
-  subroutine find_pencil_modes(bearing, response, rotor, kind, shift, wanted, modes, reach, found)
+  subroutine find_pencil_modes(bearing, response, rotor, kind, shift, wanted, modes, reach, found, left_out)
     type(bearing_system_type), target, intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), target, intent(inout) :: response !! of it, with a pencil
     type(rotor_type), intent(in) :: rotor !! on the bearing
@@ -336,6 +368,7 @@ contains
     type(pencil_mode_type), allocatable, intent(out) :: modes(:) !! none where the iteration finds none
     real(wp), intent(out) :: reach !! distance of the last mode from the shift; huge where there are no more [1/s]
     logical, intent(out) :: found !! the matrix could be factorized
+    type(relaxation_type), intent(in), optional :: left_out !! whose modes are not looked for
     type(pencil_type), target :: pencil
     complex(wp) :: coefficient(journal_motions, journal_motions)
 
@@ -347,6 +380,7 @@ contains
     call skip_inner_modes(response, .false.)
     if (.not. found) return
     pencil%shift = shift
+    if (present(left_out)) pencil%left_out = left_out
     pencil%scale%clock = shift
     pencil%scale%length = bearing%clearance
     if (kind /= cylindrical) pencil%scale%length = 2.0_wp*pencil%scale%length/rotor%bearing_distance
@@ -447,6 +481,7 @@ contains
     PetscCallA(EPSSetProblemType(solver, EPS_NHEP, ierr))
     PetscCallA(EPSSetWhichEigenpairs(solver, EPS_LARGEST_MAGNITUDE, ierr))
     PetscCallA(EPSSetTolerances(solver, tolerance, int(most_restarts, pint), ierr))
+    call leave_out(pencil, solver)
     PetscCallA(EPSSetDimensions(solver, min(int(wanted, pint), all), min(int(wanted + krylov_room, pint), all), PETSC_DEFAULT_INTEGER, ierr))
     PetscCallA(EPSSetFromOptions(solver, ierr))
     ! A start without any symmetry, which no mode may lack, and without random numbers, on which a run would depend.
@@ -467,9 +502,10 @@ contains
         reach = huge(1.0_wp)
         exit
       end if
+      one%rate = pencil%shift - 1.0_wp/cmplx(re, im, wp)
+      if (pencil%left_out%has(one%rate)) cycle
       reach = max(reach, 1.0_wp/hypot(re, im))
       if (im < 0.0_wp) cycle
-      one%rate = pencil%shift - 1.0_wp/cmplx(re, im, wp)
       call weigh(pencil, real_part, imaginary_part, one)
       modes = [modes, one]
     end do
@@ -479,6 +515,23 @@ contains
     PetscCallA(VecDestroy(left, ierr))
     PetscCallA(MatDestroy(operator, ierr))
   end subroutine solve_pencil
+
+  !> Puts eigenvalues of the product behind all others where the rates are left out: a disc about a real rate becomes one.
+  subroutine leave_out(pencil, solver)
+    type(pencil_type), intent(in) :: pencil
+    EPS, intent(in) :: solver
+    RG :: wanted
+    real(wp) :: distance, scale
+    PetscErrorCode :: ierr
+
+    if (.not. pencil%left_out%present) return
+    distance = pencil%shift - pencil%left_out%rate
+    scale = distance**2 - pencil%left_out%radius**2
+    PetscCallA(EPSGetRG(solver, wanted, ierr))
+    PetscCallA(RGSetType(wanted, RGELLIPSE, ierr))
+    PetscCallA(RGEllipseSetParameters(wanted, distance/scale, pencil%left_out%radius/scale, 1.0_wp, ierr))
+    PetscCallA(RGSetComplement(wanted, PETSC_TRUE, ierr))
+  end subroutine leave_out
 
   !> PETSc callback: the product of (A + sigma B)^-1 B with a vector.
   subroutine apply_pencil(operator, x, y, ierr)
