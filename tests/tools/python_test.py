@@ -110,7 +110,7 @@ class PythonTest(unittest.TestCase):
         tell_tilt(gfb.Case(SMALL), point, said.append)
         self.assertEqual(said, [], "a rigid bearing takes no time")
         sectors = {"bearing": {"kind": "thrust"}, "pads": {"count": 6}, "model": {"foil": "shell"}}
-        for groups, words in (({"model": {"foil": "shell"}}, ": 1.6 to 16 min"), (sectors, ": 4.8 to 48 min")):
+        for groups, words in (({"model": {"foil": "shell"}}, ": 1.2 to 16 min"), (sectors, ": 3.6 to 48 min")):
             tell_tilt(gfb.Case(groups), point, said.append)
             self.assertIn(words, said[-1])
 

@@ -37,7 +37,7 @@ SMALLEST_GAP = 4.0e-6                # m: the film at which load and tilt have r
 GRADE = 2.5                          # mm/s, ISO 21940-11: of turbines
 IDLE = re.compile(r"&sensitivity: parameters(?:\(\d+\))? = '([\w%]+)'")  # a key whose tolerance is none of this case
 ORBIT_TURNS, ORBIT_STEADY = 60, 1.0e-3
-TILT_FACTORIZATIONS = (80, 800)      # of a misalignment on shells, as those of docs/manual/design.md took
+TILT_FACTORIZATIONS = (60, 800)      # of a misalignment on shells, as those of docs/manual/design.md took
 STATE = ("scene", "bearing", "pads", "ramp", "bore", "gas", "shaft_contact", "thermal", "operation", "model", "mesh", "top_foil",
          "bump_foil", "contact", "solver", "output")
 # What a drawing leaves open, as a standard deviation: a length [m], or a part of the value.
