@@ -13,6 +13,7 @@ module gfb_motion_rules
   use gfb_operation_case, only: angular_speed
   use gfb_scene, only: scene_type, foil_density
   use gfb_scene_case, only: analysis_equilibrium
+  use gfb_study_cases, only: derives_whirl
   use gfb_sweep_case, only: sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
   implicit none (type, external)
@@ -31,6 +32,7 @@ contains
     logical :: frequencies, ratios, amplitudes
 
     associate (asked => scene%dynamics, model => scene%model, sweep => scene%sweep)
+      call check_derived_whirl(keys, scene)
       if (.not. asked%present) return
       frequencies = keys%meant(group, 'frequencies')
       ratios = keys%meant(group, 'frequency_ratios')
@@ -87,6 +89,22 @@ contains
     call keys%refuse(group, 'vibration_amplitudes', .true., 'cannot stand beside '//name// &
                      ': every amplitude is solved at every frequency')
   end subroutine check_interpolation
+
+  !> Where the whirl of `&sensitivity` has derivatives: walls stay as warm as they are under a
+  !> vibration, but not from answer to answer.
+  subroutine check_derived_whirl(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: group = 'sensitivity', name = 'quantity'
+
+    if (.not. derives_whirl(scene%sensitivity)) return
+    call keys%rule(group, name, .not. scene%dynamics%present, 'names a result of small '// &
+                   "vibrations, which needs analysis = 'linear_dynamics' and &dynamics")
+    call keys%rule(group, name, scene%thermal%present, 'names a result of small vibrations, '// &
+                   'which has no derivatives beside &thermal yet')
+    call keys%rule(group, name, scene%dynamics%present .and. stands_still(keys, scene), &
+                   'names a result of whirl, which needs a shaft that turns')
+  end subroutine check_derived_whirl
 
   !> Where amplitudes of the shaft count.
   subroutine check_amplitudes(keys, scene)

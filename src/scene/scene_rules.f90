@@ -19,7 +19,7 @@ module gfb_scene_rules
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
-  use gfb_study_cases, only: quantities_without_heat, quantities_of_rings
+  use gfb_study_cases, only: quantities_without_heat, quantities_of_rings, quantities_of_whirl
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
   use gfb_plate_rules, only: check_plate
@@ -69,7 +69,7 @@ contains
 
     call keys%rule('sensitivity', 'quantity', .not. scene%thermal%present .and. &
                    any(scene%sensitivity%quantity(quantities_without_heat + 1:size( &
-                   scene%sensitivity%quantity) - quantities_of_rings)), &
+                   scene%sensitivity%quantity) - quantities_of_rings - quantities_of_whirl)), &
                    'names a result of heat, which needs &thermal')
     if (.not. (scene%thermal%present .and. is_bearing(scene%general%analysis))) return
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &

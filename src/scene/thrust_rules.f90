@@ -10,7 +10,7 @@ module gfb_thrust_rules
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
-  use gfb_study_cases, only: quantities_of_rings
+  use gfb_study_cases, only: quantities_of_rings, quantities_of_whirl
   use gfb_sweep_case, only: operation_at, sweep_keys, sweep_axial_gap, &
                             sweep_axial_load, sweep_tilt_x, sweep_tilt_y, sweep_speed
   use gfb_text, only: text
@@ -27,12 +27,14 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
 
     associate (sweep => scene%sweep, foil => scene%model%foil, &
-               asked => scene%sensitivity%quantity)
+               asked => scene%sensitivity%quantity, &
+               before => size(scene%sensitivity%quantity) - quantities_of_whirl &
+               - quantities_of_rings)
       if (.not. scene%bearing%is_thrust()) then
         call keys%rule('sweep', 'parameter', any(sweep%parameter == [sweep_axial_load, &
                        sweep_axial_gap]), needs_thrust)
-        call keys%rule('sensitivity', 'quantity', any(asked(size(asked) - quantities_of_rings &
-                       + 1:)), 'names a result of thrust bearings: '//needs_thrust)
+        call keys%rule('sensitivity', 'quantity', any(asked(before + 1:before + &
+                       quantities_of_rings)), 'names a result of thrust bearings: '//needs_thrust)
         return
       end if
       call keys%rule('sweep', 'parameter', all(sweep%parameter /= [0, sweep_keys, sweep_speed, &
@@ -54,7 +56,8 @@ contains
       call keys%rule('model', 'foil', all(foil /= [0, foil_rigid, foil_elastic_foundation, &
                      foil_plate, foil_shell]), "must be 'rigid', 'elastic_foundation', "// &
                      "'plate' or 'shell' with kind = 'thrust' in &bearing")
-      call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. asked(size(asked) - 1) .and. &
+      call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. &
+                     any(asked(before + quantities_of_rings + 1:)) .or. asked(before + 1) .and. &
                      .not. scene%general%analysis == analysis_equilibrium, 'names a result of '// &
                      'journal bearings, or axial_gap where it is held')
       call keys%rule('operation', 'axial_load', .not. bearing_wedges(scene) .and. &

@@ -17,7 +17,7 @@ module gfb_bearing_builder
   use gfb_foil_builder, only: plate_stations, stations_follow_crests, sector_sides, shape_on_pad, gaps_beside
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
-  use gfb_petsc_session, only: rank_count
+  use gfb_petsc_session, only: rank_count, any_rank
   use gfb_aligned_mesh, only: align_stations
   use gfb_bore_profile, only: bore_kinks
   use gfb_gas_film, only: put_strips, put_bore, put_ramp, freeze_film, frozen_heat_type
@@ -42,7 +42,7 @@ module gfb_bearing_builder
   use gfb_plate_foil, only: plate_foil_type, create_plate_foil
   implicit none (type)
   private
-  public :: build_bearing, build_opposite, build_like, take_numbers, divide_bearing, film_mesh_of, heat_of
+  public :: build_bearing, build_opposite, build_like, build_changed, take_numbers, divide_bearing, film_mesh_of, heat_of
 
 contains
 
@@ -135,6 +135,49 @@ contains
     other%point = bearing%point
     other%shaft_fixed = bearing%shaft_fixed
   end subroutine build_like
+
+  !> Another bearing on a mesh like this one's, in the same state; contacts are linearised where they are.
+  subroutine build_changed(there, bearing, unknown, other, problem, error)
+    type(scene_type), intent(in) :: there !! of the other bearing
+    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    real(wp), intent(in) :: unknown(:) !! of it, local, in SI
+    type(bearing_system_type), intent(inout) :: other !! there is none where there is a problem or an error
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    type(error_type), allocatable, intent(out) :: error !! why it cannot be built
+
+    problem = ''
+    call build_like(there, bearing, other, error)
+    if (allocated(error)) return
+    if (is_alike(bearing, other)) then
+      call take_contacts(bearing, other)
+      call other%set_unknowns(unknown)
+    else
+      problem = 'the mesh changes with it'
+      call other%destroy()
+    end if
+  end subroutine build_changed
+
+  !> Whether two bearings have the same unknowns and contacts.
+  logical function is_alike(bearing, other) result(alike)
+    type(bearing_system_type), intent(in) :: bearing, other
+
+    alike = bearing%local_size() == other%local_size() .and. bearing%film_nodes() == other%film_nodes() .and. &
+      size(bearing%pad(1)%foil%contacts%point) == size(other%pad(1)%foil%contacts%point)
+    if (alike) alike = all(bearing%pad(1)%mesh%mesh_node == other%pad(1)%mesh%mesh_node)
+    alike = .not. any_rank(.not. alike)
+  end function is_alike
+
+  !> Contacts of a bearing are linearised where those of another are.
+  subroutine take_contacts(bearing, other)
+    type(bearing_system_type), intent(in) :: bearing
+    type(bearing_system_type), intent(inout) :: other
+    integer :: i
+
+    do i = 1, size(bearing%pad)
+      if (.not. bearing%pad(i)%foil%has_contacts()) cycle
+      call other%pad(i)%foil%contacts%settle_like(bearing%pad(i)%foil%contacts)
+    end do
+  end subroutine take_contacts
 
   !> The equations on a mesh of the film.
   !>

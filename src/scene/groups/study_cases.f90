@@ -5,7 +5,8 @@ module gfb_study_cases
   use gfb_case_keys, only: case_keys_type, from_to, at_least, between, not_negative, positive
   use gfb_scene_case, only: analysis_modes, misplaced_group, analysis_strip, is_bearing, &
                             analysis_equilibrium, analysis_fixed_position, analysis_load_capacity, &
-                            analysis_lift_off, analysis_misalignment, asks_limit
+                            analysis_lift_off, analysis_misalignment, asks_limit, &
+                            analysis_linear_dynamics
   use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, strip
   use gfb_text, only: text
@@ -15,6 +16,7 @@ module gfb_study_cases
   public :: output_case_type, read_output_case, modes_case_type, read_modes_case, &
             accuracy_case_type, read_accuracy_case, asked_name, sample_case_type, &
             read_sample_case, percent_of, sensitivity_case_type, read_sensitivity_case, &
+            derives_whirl, &
             capacity_case_type, read_capacity_case
 
   character(len=*), parameter :: field_words(*) = [character(len=10) :: &
@@ -65,6 +67,9 @@ module gfb_study_cases
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a percentage that is whole
 
   integer, parameter :: most_tolerances = 1000 !! of a list
+  !> whose answers have derivatives
+  integer, parameter :: derived_analyses(*) = [analysis_equilibrium, analysis_fixed_position, &
+                                               analysis_linear_dynamics]
 
   !> Results whose derivatives are offered, in the order in which the solver has them.
   character(len=*), parameter, public :: quantity_words(*) = [character(len=28) :: &
@@ -74,9 +79,10 @@ module gfb_study_cases
     'maximum_top_foil_temperature', 'shaft_temperature', 'sleeve_temperature', &
     'inlet_temperature', 'cooling_outlet_temperature', 'heat_to_shaft', 'heat_to_top_foil', &
     'heat_through_bumps', 'heat_to_channel', 'heat_by_gas', 'running_clearance', 'axial_gap', &
-    'axial_force']
+    'axial_force', 'critical_mass', 'whirl_ratio']
   integer, parameter, public :: quantities_without_heat = 12 !! the first ones
-  integer, parameter, public :: quantities_of_rings = 2 !! the last ones
+  integer, parameter, public :: quantities_of_whirl = 2 !! the last ones
+  integer, parameter, public :: quantities_of_rings = 2 !! those before them
 
   !> A key by which results are derived.
   type, public :: parameter_type
@@ -239,8 +245,7 @@ contains
 
     call keys%start_group('sensitivity', optional=.true., present_in_file=sensitivity%present, &
                           misplaced=misplaced_group(analysis, &
-                                                    analysis == analysis_equilibrium .or. &
-                                                    analysis == analysis_fixed_position))
+                                                    any(analysis == derived_analyses)))
     call keys%words_key('quantity', sensitivity%quantity, quantity_words, &
                         'results whose derivatives are found')
     call keys%rule('sensitivity', 'quantity', sensitivity%present .and. &
@@ -254,6 +259,12 @@ contains
                             'those of parameters', 'standard deviation of each of them: the '// &
                             'variance is told that they cause', not_negative, .false., 'none')
   end subroutine read_sensitivity_case
+
+  !> Whether derivatives of whirl are asked for.
+  pure logical function derives_whirl(sensitivity) result(derives)
+    type(sensitivity_case_type), intent(in) :: sensitivity !! what is asked for
+    derives = any(sensitivity%quantity(size(quantity_words) - quantities_of_whirl + 1:))
+  end function derives_whirl
 
   !> Reads the group, which belongs to analyses that look for a limit.
   subroutine read_capacity_case(keys, capacity, analysis)

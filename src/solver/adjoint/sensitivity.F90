@@ -15,40 +15,29 @@ module gfb_sensitivity
   use gfb_kinds, only: wp
   use gfb_units, only: degrees
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: parameter_type, quantity_words
-  use gfb_sweep_case, only: swept_key_type, swept_keys
-  use gfb_operation_case, only: angular_speed
-  use gfb_film_surface, only: translations
+  use gfb_study_cases, only: parameter_type, quantity_words, quantities_of_whirl, quantities_of_rings
+  use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
   use gfb_model_case, only: meshes_foils
   use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
-  use gfb_newton, only: newton_type, solve_transposed
+  use gfb_newton, only: newton_type
+  use gfb_corrected_solve, only: solve_corrected
+  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
                                 place_e, place_force, place_torque, place_speed, place_extremes, place_heat
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: any_rank, sum_over_ranks, share_failure
-  use gfb_fixed_lines, only: fixed_line_half_flat
   use gfb_scene_reading, only: scene_with_key
   use gfb_foil_builder, only: keep_elements
   use gfb_changed_foil, only: elastic_work
-  use gfb_bearing_builder, only: build_like, take_numbers
+  use gfb_bearing_builder, only: take_numbers, build_changed
   implicit none (type)
   private
   public :: keep_tangent, find_sensitivities, evaluate_changed
 
-  !> How a derivative by a key is made of differences.
-  type :: difference_type
-    real(wp) :: part = 2.0e-4_wp !! of the key, that it is changed by [1]
-    !> of the values at one and two such steps on both sides; with these the error is of fourth order
-    real(wp) :: weight(-2:2) = [1.0_wp, -8.0_wp, 0.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
-  end type difference_type
-
-  real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp] !! the same of second order
-  real(wp), parameter :: forward(-2:2) = [0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp] !! exact where all is linear
-  real(wp), parameter :: enough = 1.0e-10_wp    !! residual of an adjoint, over its right side [1]
-  integer, parameter :: most_corrections = 10   !! of an adjoint: the factors may be those of a matrix close by
+  integer, parameter :: before_whirl = size(quantity_words) - quantities_of_whirl !! quantities that are numbers of the answer
 
   !> What is found of an answer.
   type, public :: sensitivity_type
@@ -71,7 +60,7 @@ contains
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, tangent, ierr))
   end subroutine keep_tangent
 
-  !> Derivatives of all quantities that the scene asks for by all its parameters.
+  !> Derivatives of all quantities that the scene asks for by all its parameters, but for those of whirl.
   subroutine find_sensitivities(scene, bearing, newton, tangent, found, at)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
@@ -84,7 +73,7 @@ contains
     type(known_answer_type) :: answer
     real(wp) :: number(numbers), combined(size(quantity_words), numbers)
     character(len=:), allocatable :: problem
-    logical :: solved(size(quantity_words))
+    logical :: asked(size(quantity_words)), solved(size(quantity_words))
     PetscErrorCode :: ierr
     integer :: i, k
 
@@ -93,20 +82,22 @@ contains
     call find_extremes(bearing, answer%nodes)
     number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call combine(number, found%value, combined)
-    call find_adjoints(scene, bearing, newton, tangent, answer%nodes, combined, adjoint, solved)
+    asked = scene%sensitivity%quantity
+    asked(before_whirl + 1:) = .false.
+    call find_adjoints(asked, bearing, newton, tangent, answer%nodes, combined, adjoint, solved)
     if (meshes_foils(scene%model%foil)) call find_motions(bearing, adjoint, solved, answer)
     associate (parameter => scene%sensitivity%parameter)
       allocate (found%derivative(size(quantity_words), size(parameter)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       found%problem = ''
-      do i = 1, size(parameter)
+      do i = 1, merge(size(parameter), 0, any(asked))
         call find_derivatives(scene, parameter(i), bearing, answer, combined, adjoint, solved, found%derivative(:, i), &
                               problem, at)
         if (problem /= '') found%problem = parameter(i)%key%label()//': '//problem
       end do
     end associate
-    if (any(scene%sensitivity%quantity .and. .not. solved)) found%problem = 'the transposed equations were not solved'
+    if (any(asked .and. .not. solved)) found%problem = 'the transposed equations were not solved'
     do k = 1, size(quantity_words)
-      if (scene%sensitivity%quantity(k)) then
+      if (asked(k)) then
         PetscCallA(VecDestroy(adjoint(k), ierr))
       end if
     end do
@@ -121,13 +112,13 @@ contains
     integer, parameter :: attitude = 3, power = 9, extremes = 10 !! among the quantities
     integer :: k, axial
 
-    allocate (value(size(rate, 1)))
-    axial = size(value) - 1
+    allocate (value(size(rate, 1)), source=0.0_wp) ! those of whirl are not measured
+    axial = before_whirl - quantities_of_rings + 1
     rate = 0.0_wp
     value(:2) = number(place_e:place_e + 1)
     value(attitude + 1:power - 1) = number(place_force:place_torque)
     value(extremes:axial - 1) = number(place_extremes:)
-    value(axial:) = [-number(place_e), number(place_force)] ! of a ring
+    value(axial:axial + 1) = [-number(place_e), number(place_force)] ! of a ring
     rate(axial, place_e) = -1.0_wp
     rate(axial + 1, place_force) = 1.0_wp
     do k = 1, 2
@@ -153,8 +144,8 @@ contains
   end subroutine combine
 
   !> An adjoint for every quantity that is asked for; vectors of the others are not created.
-  subroutine find_adjoints(scene, bearing, newton, tangent, nodes, combined, adjoint, solved)
-    type(scene_type), intent(in) :: scene
+  subroutine find_adjoints(asked, bearing, newton, tangent, nodes, combined, adjoint, solved)
+    logical, intent(in) :: asked(:) !! for each quantity
     type(bearing_system_type), intent(in) :: bearing
     type(newton_type), intent(in) :: newton
     Mat, intent(in) :: tangent
@@ -171,49 +162,14 @@ contains
     call measure_gradient(bearing, nodes, gradient)
     PetscCallA(VecDuplicate(bearing%state, right, ierr))
     do k = 1, size(adjoint)
-      if (.not. scene%sensitivity%quantity(k)) cycle
+      if (.not. asked(k)) cycle
       PetscCallA(VecDuplicate(bearing%state, adjoint(k), ierr))
       PetscCallA(VecSet(right, 0.0_wp, ierr))
       call bearing%exchange%add(matmul(gradient, combined(k, :size(gradient, 2)))*bearing%unknown_scale, right)
-      call solve_adjoint(newton, tangent, right, adjoint(k), solved(k))
+      call solve_corrected(newton, tangent, right, adjoint(k), .true., solved(k))
     end do
     PetscCallA(VecDestroy(right, ierr))
   end subroutine find_adjoints
-
-  !> Solves a transposed system with factors of a matrix that is close, and corrects the solution.
-  subroutine solve_adjoint(newton, tangent, right, adjoint, solved)
-    type(newton_type), intent(in) :: newton
-    Mat, intent(in) :: tangent
-    Vec, intent(in) :: right   !! scaled
-    Vec, intent(in) :: adjoint !! scaled
-    logical, intent(out) :: solved
-    real(wp), parameter :: useful = 0.1_wp   ! share of the residual that a correction leaves
-    real(wp), parameter :: accepted = 1.0e-8_wp ! residual over the right side
-    Vec :: left, correction
-    PetscReal :: whole, norm, before
-    PetscErrorCode :: ierr
-    integer :: i
-
-    PetscCallA(VecDuplicate(right, left, ierr))
-    PetscCallA(VecDuplicate(right, correction, ierr))
-    PetscCallA(VecSet(adjoint, 0.0_wp, ierr))
-    PetscCallA(VecCopy(right, left, ierr))
-    PetscCallA(VecNorm(right, NORM_2, whole, ierr))
-    norm = whole
-    do i = 1, most_corrections
-      before = norm
-      if (before <= enough*whole) exit
-      call solve_transposed(newton, left, correction)
-      PetscCallA(VecAXPY(adjoint, 1.0_wp, correction, ierr))
-      PetscCallA(MatMultTranspose(tangent, adjoint, left, ierr))
-      PetscCallA(VecAYPX(left, -1.0_wp, right, ierr))
-      PetscCallA(VecNorm(left, NORM_2, norm, ierr))
-      if (.not. norm <= useful*before) exit
-    end do
-    solved = norm <= accepted*whole
-    PetscCallA(VecDestroy(correction, ierr))
-    PetscCallA(VecDestroy(left, ierr))
-  end subroutine solve_adjoint
 
   !> How the foils move at the answer, and in the adjoints of all quantities.
   subroutine find_motions(bearing, adjoint, solved, answer)
@@ -281,8 +237,7 @@ contains
     elastic = 0.0_wp
     value = present_value(scene, parameter, bearing%point, at)
     difference = difference_of(parameter%key)
-    step = difference%part*abs(value)
-    if (parameter%key%is_gap()) step = difference%part*scene%bearing%clearance
+    step = step_of(scene, parameter%key, difference, value)
     problem = ''
     if (.not. step > 0.0_wp) problem = 'it is 0 here'
     do steps = -2, 2
@@ -301,54 +256,6 @@ contains
     PetscCallA(VecDestroy(change, ierr))
     PetscCallA(VecDestroy(residual, ierr))
   end subroutine find_derivatives
-
-  !> The differences that suit a key. Where it leaves the foils' stiffness alone little is lost to rounding. In thickness
-  !> and material stiffness is a polynomial, or nearly one, of low degree. The shape of bumps is neither, and a pitch adds
-  !> up along the strip.
-  !> Gaps of contacts that stay as they are are part of the equations in proportion.
-  pure function difference_of(key) result(difference)
-    type(swept_key_type), intent(in) :: key
-    type(difference_type) :: difference
-    real(wp), parameter :: small = 4.0e-6_wp, large = 5.0e-4_wp
-
-    select case (key%group)
-    case ('operation', 'gas', 'bore', 'contact', 'shaft_contact', 'thermal')
-      difference = difference_type(small, central)
-    case default
-      select case (key%name)
-      case ('clearance', 'preload')
-        difference = difference_type(small, central)
-      case ('crest_gap', 'corner_gap')
-        difference = difference_type(0.01_wp, forward)
-      case ('thickness', 'bump_thickness', 'strip_thickness', 'youngs_modulus', 'poissons_ratio')
-        difference = difference_type(large, central)
-      case default
-        return
-      end select
-    end select
-  end function difference_of
-
-  !> Value of a parameter at the answer: the sweep's where it changes that very key.
-  pure function present_value(scene, parameter, point, at) result(value)
-    type(scene_type), intent(in) :: scene
-    type(parameter_type), intent(in) :: parameter
-    type(operating_point_type), intent(in) :: point
-    real(wp), intent(in), optional :: at !! [the sweep's unit]
-    real(wp) :: value !! [its unit]
-    type(swept_key_type), allocatable :: list(:)
-    integer :: i
-
-    value = parameter%value
-    if (parameter%key%group == 'operation') then
-      value = point%speed/angular_speed(1.0_wp)
-      if (parameter%key%name == 'load') value = norm2(point%load(:translations))
-    else if (present(at) .and. allocated(scene%sweep%keys)) then
-      list = swept_keys(scene%sweep)
-      do i = 1, size(list)
-        if (list(i)%label() == parameter%key%label()) value = at
-      end do
-    end if
-  end function present_value
 
   !> Residual and numbers at an answer's state with another value of a key; the bearing is as before on return.
   subroutine evaluate_changed(scene, parameter, value, bearing, answer, residual, number, work, problem, at)
@@ -400,39 +307,10 @@ contains
     logical, intent(out) :: valid !! gap and pressure are positive
     type(operating_point_type) :: point
 
-    point = bearing%point
-    if (parameter%key%name == 'load') then
-      point%load(:translations) = point%load(:translations)*(value/norm2(point%load(:translations)))
-    else
-      point%speed = angular_speed(value)
-    end if
+    point = changed_point(parameter, value, bearing%point)
     call bearing%evaluate_at(point, bearing%state, residual, valid)
     number = measure(bearing, answer%unknown, point, answer%nodes)
   end subroutine evaluate_operation
-
-  !> Whether a key moves neither the film's mesh nor the crests.
-  pure logical function keeps_meshes(scene, key) result(keeps)
-    type(scene_type), intent(in) :: scene
-    type(swept_key_type), intent(in) :: key
-
-    associate (name => key%name)
-      select case (key%group)
-      case ('gas', 'bore', 'contact', 'shaft_contact', 'thermal')
-        keeps = .true.
-      case ('bearing')
-        keeps = name == 'clearance' .or. name == 'assembly_interference'
-      case ('pads')
-        keeps = name == 'preload' .or. name == 'preload_offset'
-      case ('top_foil', 'bump_foil')
-        keeps = name == 'thickness' .or. name == 'youngs_modulus' .or. name == 'poissons_ratio' .or. name == 'height' .or. &
-                name == 'free_radius' .or. key%is_gap()
-        ! else the first crest stands as far from the weld as half a bump is long
-        if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
-      case default
-        keeps = .false.
-      end select
-    end associate
-  end function keeps_meshes
 
   !> The same bearing with other numbers. Its matrix of the foils stays; what changes in it is in the work.
   subroutine evaluate_in_place(scene, there, key, bearing, answer, residual, number, work, valid, error)
@@ -490,39 +368,10 @@ contains
 
     number = 0.0_wp
     valid = .true.
-    problem = ''
-    call build_like(there, bearing, other, error)
-    if (allocated(error)) return
-    if (is_alike(bearing, other)) then
-      call take_contacts(bearing, other)
-      call other%set_unknowns(answer%unknown)
-      call other%evaluate(other%state, residual, valid)
-      number = measure(other, answer%unknown, other%point, answer%nodes)
-    else
-      problem = 'the mesh changes with it'
-    end if
+    call build_changed(there, bearing, answer%unknown, other, problem, error)
+    if (allocated(error) .or. problem /= '') return
+    call other%evaluate(other%state, residual, valid)
+    number = measure(other, answer%unknown, other%point, answer%nodes)
     call other%destroy()
   end subroutine evaluate_rebuilt
-
-  !> Whether two bearings have the same unknowns and contacts.
-  logical function is_alike(bearing, other) result(alike)
-    type(bearing_system_type), intent(in) :: bearing, other
-
-    alike = bearing%local_size() == other%local_size() .and. bearing%film_nodes() == other%film_nodes() .and. &
-      size(bearing%pad(1)%foil%contacts%point) == size(other%pad(1)%foil%contacts%point)
-    if (alike) alike = all(bearing%pad(1)%mesh%mesh_node == other%pad(1)%mesh%mesh_node)
-    alike = .not. any_rank(.not. alike)
-  end function is_alike
-
-  !> Contacts of a bearing are linearised where those of another are.
-  subroutine take_contacts(bearing, other)
-    type(bearing_system_type), intent(in) :: bearing
-    type(bearing_system_type), intent(inout) :: other
-    integer :: i
-
-    do i = 1, size(bearing%pad)
-      if (.not. bearing%pad(i)%foil%has_contacts()) cycle
-      call other%pad(i)%foil%contacts%settle_like(bearing%pad(i)%foil%contacts)
-    end do
-  end subroutine take_contacts
 end module gfb_sensitivity

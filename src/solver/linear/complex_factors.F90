@@ -20,6 +20,7 @@ module gfb_complex_factors
   character(len=*), parameter :: prefix = '-dynamic_' !! of PETSc's options
   integer(c_int), parameter :: analyse = 1, factor = 2, solve = 3 !! jobs of MUMPS
   integer(c_int), parameter :: room_control = 14 !! of ICNTL: room for pivoting [%]
+  integer(c_int), parameter :: transposition_control = 9 !! of ICNTL: other than 1 solves with the transposed matrix
   integer, parameter :: no_memory = -13 !! as MUMPS says it
   integer, parameter :: controls = 60 !! of MUMPS, that options may set
   integer, parameter :: first_room = 60 !! [%]
@@ -216,15 +217,20 @@ contains
   end subroutine factor_complex
 
   !> Solves with the factors there are; improved once where the equations are not met to round-off.
-  subroutine solve_complex(factors, re, im, solved)
+  subroutine solve_complex(factors, re, im, solved, transposed)
     type(complex_factors_type), intent(in) :: factors !! made before
     Vec, intent(in) :: re, im !! right side, overwritten by the solution
     logical, intent(out) :: solved !! the solution meets the equations
+    logical, intent(in), optional :: transposed !! those of the transposed matrix, not of its conjugate
     complex(wp), allocatable :: right(:), residual(:), answer(:)
     complex(wp), allocatable, target :: change(:)
     real(wp) :: size_of(3), error
     integer :: pass
+    logical :: turned
 
+    turned = .false.
+    if (present(transposed)) turned = transposed
+    call gfb_mumps_control(factors%mumps, transposition_control, merge(0_c_int, 1_c_int, turned))
     right = [cmplx(values_of(re), values_of(im), wp)]
     allocate (residual, source=right)
     allocate (change(sum(factors%entries)), answer(sum(factors%entries)))
@@ -234,7 +240,7 @@ contains
       if (.not. solved) return
       answer = answer + change
       residual = right
-      call subtract_product(factors, answer, residual)
+      call subtract_product(factors, answer, turned, residual)
       size_of = largest_over_ranks([largest_of(residual), largest_of(right), largest_of(answer)])
       error = size_of(1)/max(tiny(1.0_wp), factors%largest*size_of(3) + size_of(2))
       if (error <= refined) exit
@@ -279,14 +285,28 @@ contains
     call MPI_Bcast(answer, size(answer), MPI_DOUBLE_COMPLEX, 0, PETSC_COMM_WORLD, ierr)
   end subroutine solve_once
 
-  !> Takes the matrix times a vector away from this rank's entries of another.
-  subroutine subtract_product(factors, vector, rest)
+  !> Takes the matrix, or the transposed one, times a vector away from this rank's entries of another.
+  subroutine subtract_product(factors, vector, transposed, rest)
     type(complex_factors_type), intent(in) :: factors
     complex(wp), intent(in) :: vector(:)  !! whole
+    logical, intent(in) :: transposed
     complex(wp), intent(inout) :: rest(:) !! of this rank
+    complex(wp), allocatable :: product(:)
+    PetscErrorCode :: ierr
     integer :: entry, before
 
     before = factors%before(this_rank() + 1)
+    if (transposed) then
+      allocate (product(size(vector)), source=(0.0_wp, 0.0_wp))
+      do entry = 1, factors%filled
+        associate (one => product(factors%column(entry)))
+          one = one + factors%value(entry)*vector(factors%row(entry))
+        end associate
+      end do
+      call MPI_Allreduce(MPI_IN_PLACE, product, size(product), MPI_DOUBLE_COMPLEX, MPI_SUM, PETSC_COMM_WORLD, ierr)
+      rest = rest - product(before + 1:before + size(rest))
+      return
+    end if
     do entry = 1, factors%filled
       associate (one => rest(factors%row(entry) - before))
         one = one - factors%value(entry)*vector(factors%column(entry))

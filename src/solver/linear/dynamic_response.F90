@@ -39,7 +39,7 @@ module gfb_dynamic_response
   implicit none (type)
   private
   public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, take_over_counts, response_failure, &
-            factor_part, solve_part, forces_of, destroy_response
+            factor_part, solve_part, forces_of, force_gradient, destroy_response
 
   !> Of a journal's motions.
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
@@ -533,6 +533,30 @@ contains
     end do
     force = sum_over_ranks(matmul(part%weight, pressure))
   end function forces_of
+
+  !> This rank's shares of the derivatives of `forces_of` by that change, in SI.
+  pure function force_gradient(bearing, response, part) result(gradient)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(in) :: response !! of it
+    type(part_type), intent(in) :: part !! of the response
+    real(wp) :: gradient(bearing%local_size(), size(part%coordinate))
+    integer :: i, node
+
+    gradient = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node)
+        do node = 1, pad%last_node - first
+          associate (weight => part%weight(:, first + node), mine => gradient(pad%first + node, :))
+            mine = mine + weight
+          end associate
+          if (.not. pad%contact%present .or. pad%foil%source(node) == 0) cycle
+          associate (weight => part%weight(:, first + node), mine => gradient(pad%first + pad%foil%source(node), :))
+            mine = mine + pad%foil%rate(node)*response%solid_rate(first + node)*weight
+          end associate
+        end do
+      end associate
+    end do
+  end function force_gradient
 
   !> Adds the pressures of a pad's asperities.
   pure subroutine add_asperities(pad, solid_rate, coordinate, motion, value, pressure)

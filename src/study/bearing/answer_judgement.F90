@@ -11,14 +11,16 @@ module gfb_answer_judgement
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell
-  use gfb_study_cases, only: quantity_words, parameter_type
+  use gfb_study_cases, only: quantity_words, parameter_type, quantities_of_whirl, derives_whirl
   use gfb_sweep_case, only: swept_key_type
   use gfb_bearing_system, only: bearing_system_type, free_equations
   use gfb_heat_switch, only: freeze_heat
   use gfb_newton, only: newton_type, find_determinant_sign
   use gfb_static_stiffness, only: find_edge_stiffness
+  use gfb_whirl, only: whirl_type
   use gfb_stability, only: stability_type, find_stability
   use gfb_sensitivity, only: sensitivity_type, find_sensitivities, keep_tangent
+  use gfb_whirl_sensitivity, only: derive_whirl
   implicit none (type)
   private
   public :: judge_and_derive, judge_answer
@@ -30,14 +32,16 @@ module gfb_answer_judgement
 contains
 
   !> Judges an answer and, where that is asked for, derives its numbers by keys, with the factors of the judgement.
-  subroutine judge_and_derive(scene, log, bearing, newton, judged, value)
+  subroutine judge_and_derive(scene, log, bearing, newton, judged, whirl, value)
     type(scene_type), intent(in) :: scene !! what is asked for, with the sweep's value in its keys
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_system_type), intent(inout) :: bearing !! at the answer
     type(newton_type), intent(inout) :: newton !! its solver
     type(quantity_type), allocatable, intent(out) :: judged(:) !! what is known of the answer
+    type(whirl_type), intent(in) :: whirl !! of it, where its derivatives are asked for
     real(wp), intent(in), optional :: value !! of the sweep, in its unit
     type(sensitivity_type) :: found
+    character(len=:), allocatable :: problem
     integer :: sign_of_determinant, i
     Mat :: tangent
     PetscErrorCode :: ierr
@@ -48,8 +52,15 @@ contains
     sign_of_determinant = nint(number_in(judged, 'determinant_sign'))
     if (sign_of_determinant == 0) call find_determinant_sign(newton, sign_of_determinant) ! makes the factors
     call find_sensitivities(scene, bearing, newton, tangent, found, value)
-    PetscCallA(MatDestroy(tangent, ierr))
     if (found%problem /= '') call log%warning('no derivative by '//found%problem)
+    if (derives_whirl(scene%sensitivity)) then
+      associate (first => size(quantity_words) - quantities_of_whirl + 1)
+        found%value(first:) = [whirl%critical_mass, whirl%ratio]
+        call derive_whirl(scene, bearing, newton, tangent, whirl, found%derivative(first:, :), problem, value)
+      end associate
+      if (problem /= '') call log%warning('no derivative of whirl by '//problem)
+    end if
+    PetscCallA(MatDestroy(tangent, ierr))
     do i = 1, size(quantity_words)
       if (scene%sensitivity%quantity(i)) call add_results(scene, trim(quantity_words(i)), found%derivative(i, :), judged)
     end do

@@ -16,6 +16,8 @@ module gfb_answer_record
   use gfb_result_set, only: result_grid_type, add_series_step
   use gfb_answer_judgement, only: judge_and_derive
   use gfb_dynamics, only: find_dynamics
+  use gfb_whirl, only: whirl_type
+  use gfb_study_cases, only: derives_whirl
   use gfb_bearing_solution, only: bearing_solution_type
   implicit none (type, external)
   private
@@ -29,26 +31,25 @@ contains
     real(wp), intent(in), optional :: value !! of the sweep, in its unit
     logical, intent(in), optional :: fold !! of a branch that is followed: the value turns back there
     type(quantity_type), allocatable :: vibrations(:)
-    logical :: turns
+    type(whirl_type) :: whirl
+    logical :: turns, vibrates_first
 
     associate (scene => solution%scene, here => solution%here, log => solution%context%log, &
                bearing => solution%bearing, newton => solution%newton, record => solution%record)
-      if (present(value)) then
-        call measure_tilt(scene, value, bearing, newton, record%tilted)
-        call find_dynamics(here, log, bearing, newton, record%dynamics, vibrations)
-      end if
+      if (present(value)) call measure_tilt(scene, value, bearing, newton, record%tilted)
+      vibrates_first = present(value) .or. derives_whirl(here%sensitivity)
+      if (vibrates_first) call find_dynamics(here, log, bearing, newton, record%dynamics, vibrations, whirl)
       ! The last of the factors, for the next answer.
-      call judge_and_derive(here, log, bearing, newton, record%judged, value)
+      call judge_and_derive(here, log, bearing, newton, record%judged, whirl, value)
       turns = record%at_fold
       if (present(fold)) turns = turns .or. fold
       if (turns) call change_signs(record%judged)
       if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
       if (allocated(record%limit)) call add_quantity(record%judged, record%limit)
       call add_row(scene, bearing, newton, .true., record, value, fold)
-      if (present(value)) then
-        call add_fields(scene, bearing, record%series, value)
-      else
-        call find_dynamics(here, log, bearing, newton, record%dynamics, vibrations)
+      if (present(value)) call add_fields(scene, bearing, record%series, value)
+      if (.not. vibrates_first) then
+        call find_dynamics(here, log, bearing, newton, record%dynamics, vibrations, whirl)
         if (allocated(vibrations)) call add_quantity(record%judged, vibrations)
       end if
     end associate

@@ -13,7 +13,6 @@ module gfb_dynamics
   use gfb_model_case, only: foil_shell, meshes_foils
   use gfb_motion_cases, only: tangent_stick, frequencies_at
   use gfb_film_surface, only: journal_motions
-  use gfb_foundation_foil, only: foundation_stiffness
   use gfb_bearing_system, only: bearing_system_type, free_equations
   use gfb_heat_switch, only: freeze_heat
   use gfb_bearing_builder, only: build_opposite
@@ -22,6 +21,7 @@ module gfb_dynamics
   use gfb_frequency_response, only: frequency_response_type, cover_frequencies, coefficients_at, joined_type, join_frequencies, &
                                     most_joined
   use gfb_vibration_equations, only: vibration_type
+  use gfb_scene_vibration, only: vibration_of
   use gfb_foil_mass_choice, only: choose_mass, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
@@ -44,7 +44,7 @@ contains
 
   !> Coefficients at the frequencies of the scene, the critical mass and the rotor's modes, where they are asked for; the bearing's
   !> state and equations are left as they are.
-  recursive subroutine find_dynamics(scene, log, bearing, newton, record, found)
+  recursive subroutine find_dynamics(scene, log, bearing, newton, record, found, whirl)
     type(scene_type), intent(in) :: scene !! what is asked for, with the sweep's value in its keys
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_system_type), intent(inout) :: bearing !! at its answer
@@ -52,6 +52,7 @@ contains
     type(dynamics_record_type), intent(inout) :: record !! gets the answer's coefficients
     !> entries of K and C, critical mass, whirl ratio, the rotor's growth; not allocated where nothing is asked for
     type(quantity_type), allocatable, intent(out) :: found(:)
+    type(whirl_type), intent(out) :: whirl !! what was found of it, where it was looked for
     type(rotor_answer_type) :: rotor
     type(dynamic_response_type) :: response
     type(frequency_response_type) :: model
@@ -62,7 +63,7 @@ contains
     if (.not. scene%dynamics%present) return
     if (bearing%heat%present) then
       call freeze_heat(bearing, frozen)
-      call find_dynamics(scene, log, frozen, newton, record, found)
+      call find_dynamics(scene, log, frozen, newton, record, found, whirl)
       call free_equations(frozen)
       return
     end if
@@ -84,7 +85,7 @@ contains
       call fill_amplitudes(scene, log, bearing, response, point, record%problem)
     end if
     if (.not. allocated(record%problem) .and. scene%dynamics%stability .and. bearing%point%speed > 0.0_wp) then
-      call add_whirl(log, bearing, response, model, found, record%problem)
+      call add_whirl(log, bearing, response, model, found, whirl, record%problem)
       if (scene%rotor%present .and. .not. allocated(record%problem)) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
     end if
     if (.not. allocated(record%problem) .and. scene%bearing%is_thrust() .and. scene%rotor%present) then
@@ -348,23 +349,6 @@ contains
     call bearing%linearise(bearing%state)
   end subroutine end_response
 
-  !> What the foil does under vibration.
-  pure function vibration_of(scene) result(vibration)
-    type(scene_type), intent(in) :: scene
-    type(vibration_type) :: vibration
-
-    vibration%stick = scene%dynamics%contact_tangent == tangent_stick
-    vibration%loss_factor = scene%dynamics%loss_factor
-    vibration%damping_time = scene%foil_damping%loss_time()
-    if (scene%foil_damping%foundation_damping > 0.0_wp) then
-      vibration%damping_time = scene%foil_damping%foundation_damping/foundation_stiffness(scene%model, scene%bump_foil)
-    end if
-    if (scene%foil_damping%arm%is_present()) then
-      vibration%arm = scene%foil_damping%arm
-      vibration%arm%stiffness = scene%foil_damping%arm%stiffness/foundation_stiffness(scene%model, scene%bump_foil)
-    end if
-  end function vibration_of
-
   !> What is modelled of the foil, and what is not.
   subroutine describe(scene, log)
     type(scene_type), intent(in) :: scene
@@ -438,16 +422,17 @@ contains
   end subroutine add_entries
 
   !> Looks for the mass that whirls, where the shaft turns.
-  subroutine add_whirl(log, bearing, response, model, found, problem)
+  subroutine add_whirl(log, bearing, response, model, found, whirl, problem)
     type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
     type(frequency_response_type), intent(inout) :: model !! of the frequencies that were asked for
     type(quantity_type), allocatable, intent(inout) :: found(:)
+    type(whirl_type), intent(out) :: whirl
     character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
-    type(whirl_type) :: whirl
 
     call find_critical_mass(bearing, response, log, model, whirl)
+    whirl%weighs = response%equations%inertia%present
     if (whirl%found) then
       call log%line('critical mass '//text(whirl%critical_mass, 5)//' kg on this bearing: heavier rigid shafts whirl, at '// &
                     text(whirl%ratio, 5)//' of the speed')

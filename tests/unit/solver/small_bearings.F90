@@ -26,12 +26,16 @@ module small_bearings
 contains
 
   !> A scene of an equilibrium under 20 N, with further groups.
-  subroutine read_bearing(words, scene)
+  subroutine read_bearing(words, scene, analysis)
     character(len=*), intent(in) :: words
     type(scene_type), intent(out) :: scene
+    character(len=*), intent(in), optional :: analysis !! another one
     type(error_type), allocatable :: error
+    character(len=:), allocatable :: asked
 
-    call read_scene_text("&scene analysis='equilibrium' /"//lf// &
+    asked = 'equilibrium'
+    if (present(analysis)) asked = analysis
+    call read_scene_text("&scene analysis='"//asked//"' /"//lf// &
                          '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 /'//lf// &
                          '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /'//lf// &
                          '&operation speed_rpm=3e4 load=-20,5 /'//lf// &

@@ -1,0 +1,129 @@
+!> How derivatives by a key of the case file are made of differences.
+module gfb_key_differences
+  use gfb_kinds, only: wp
+  use gfb_scene, only: scene_type
+  use gfb_study_cases, only: parameter_type
+  use gfb_sweep_case, only: swept_key_type, swept_keys
+  use gfb_operation_case, only: angular_speed
+  use gfb_film_surface, only: translations
+  use gfb_operating_point, only: operating_point_type
+  use gfb_fixed_lines, only: fixed_line_half_flat
+  implicit none (type, external)
+  private
+  public :: difference_of, present_value, step_of, changed_point, keeps_meshes
+
+  !> part of what is changed, where little is lost to rounding [1]
+  real(wp), parameter, public :: small = 4.0e-6_wp
+
+  !> How a derivative by a key is made of differences.
+  type, public :: difference_type
+    real(wp) :: part = 2.0e-4_wp !! of the key, that it is changed by [1]
+    !> of the values at one and two such steps on both sides; with these the error is of fourth
+    !> order
+    real(wp) :: weight(-2:2) = [1.0_wp, -8.0_wp, 0.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
+  end type difference_type
+
+  !> the same of second order
+  real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp]
+  !> exact where all is linear
+  real(wp), parameter :: forward(-2:2) = [0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp]
+
+contains
+
+  !> The differences that suit a key. Where it leaves the foils' stiffness alone little is lost to
+  !> rounding. In thickness and material stiffness is a polynomial, or nearly one, of low degree.
+  !> The shape of bumps is neither, and a pitch adds up along the strip.
+  !> Gaps of contacts that stay as they are are part of the equations in proportion.
+  pure function difference_of(key) result(difference)
+    type(swept_key_type), intent(in) :: key !! that is changed
+    type(difference_type) :: difference
+    real(wp), parameter :: large = 5.0e-4_wp
+
+    select case (key%group)
+    case ('operation', 'gas', 'bore', 'contact', 'shaft_contact', 'thermal')
+      difference = difference_type(small, central)
+    case default
+      select case (key%name)
+      case ('clearance', 'preload')
+        difference = difference_type(small, central)
+      case ('crest_gap', 'corner_gap')
+        difference = difference_type(0.01_wp, forward)
+      case ('thickness', 'bump_thickness', 'strip_thickness', 'youngs_modulus', 'poissons_ratio')
+        difference = difference_type(large, central)
+      case default
+        return
+      end select
+    end select
+  end function difference_of
+
+  !> Value of a parameter at the answer: the sweep's where it changes that very key.
+  pure function present_value(scene, parameter, point, at) result(value)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(parameter_type), intent(in) :: parameter !! the key
+    type(operating_point_type), intent(in) :: point !! of the answer
+    real(wp), intent(in), optional :: at !! [the sweep's unit]
+    real(wp) :: value !! [its unit]
+    type(swept_key_type), allocatable :: list(:)
+    integer :: i
+
+    value = parameter%value
+    if (parameter%key%group == 'operation') then
+      value = point%speed/angular_speed(1.0_wp)
+      if (parameter%key%name == 'load') value = norm2(point%load(:translations))
+    else if (present(at) .and. allocated(scene%sweep%keys)) then
+      list = swept_keys(scene%sweep)
+      do i = 1, size(list)
+        if (list(i)%label() == parameter%key%label()) value = at
+      end do
+    end if
+  end function present_value
+
+  !> By how much a key is changed [its unit]; 0 where it has no size.
+  pure real(wp) function step_of(scene, key, difference, value) result(step)
+    type(scene_type), intent(in) :: scene !! with the key
+    type(swept_key_type), intent(in) :: key !! that is changed
+    type(difference_type), intent(in) :: difference !! that it is for
+    real(wp), intent(in) :: value !! of the key [its unit]
+
+    step = difference%part*abs(value)
+    if (key%is_gap()) step = difference%part*scene%bearing%clearance
+  end function step_of
+
+  !> Another load, the direction kept, or another speed.
+  pure type(operating_point_type) function changed_point(parameter, value, point) result(there)
+    type(parameter_type), intent(in) :: parameter !! a key of `&operation`
+    real(wp), intent(in) :: value !! of it [its unit]
+    type(operating_point_type), intent(in) :: point !! of the answer
+
+    there = point
+    if (parameter%key%name == 'load') then
+      there%load(:translations) = point%load(:translations)*(value/norm2(point%load(:translations)))
+    else
+      there%speed = angular_speed(value)
+    end if
+  end function changed_point
+
+  !> Whether a key moves neither the film's mesh nor the crests.
+  pure logical function keeps_meshes(scene, key) result(keeps)
+    type(scene_type), intent(in) :: scene !! with the key
+    type(swept_key_type), intent(in) :: key !! that changes
+
+    associate (name => key%name)
+      select case (key%group)
+      case ('gas', 'bore', 'contact', 'shaft_contact', 'thermal')
+        keeps = .true.
+      case ('bearing')
+        keeps = name == 'clearance' .or. name == 'assembly_interference'
+      case ('pads')
+        keeps = name == 'preload' .or. name == 'preload_offset'
+      case ('top_foil', 'bump_foil')
+        keeps = key%is_gap() .or. any(name == [character(len=14) :: 'thickness', 'youngs_modulus', &
+                                               'poissons_ratio', 'height', 'free_radius'])
+        ! else the first crest stands as far from the weld as half a bump is long
+        if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
+      case default
+        keeps = .false.
+      end select
+    end associate
+  end function keeps_meshes
+end module gfb_key_differences

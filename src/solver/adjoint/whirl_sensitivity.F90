@@ -1,0 +1,426 @@
+#include "gfb_petsc.h"
+!> How the critical mass of an answer, and the frequency of its whirl, follow keys of the case file.
+!>
+!> The coefficients at the whirl's frequency are stationary in the motions \( A y = b \) that give them and in their adjoints,
+!> \( A^T z_j = w_j \) with the weights w of the forces:
+!>
+!> $$ Z_{jk} = w_j^T y_k + z_j^T (b_k - A y_k). $$
+!>
+!> So with y and z held their change is that of w, b and A alone, which depend on the key and on the answer. The answer
+!> follows the key by \( J u_a = -J_a \), one solve with the factors there are; both parts are central differences of
+!> this form, of bearings with a little more and less of the key, and of states a little on along \( u_a \). A gap of
+!> contacts is changed with the state in one: by itself it would open contacts that are pressed by far less.
+!> `gfb_whirl` has how the whirl follows Z. Nothing is factored but the equations of the whirl, once.
+module gfb_whirl_sensitivity
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type
+  use gfb_petsc_session, only: any_rank, largest_over_ranks
+  use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: scene_with_key
+  use gfb_study_cases, only: parameter_type
+  use gfb_operation_case, only: angular_speed
+  use gfb_motion_cases, only: mass_on, mass_off
+  use gfb_model_case, only: meshes_foils
+  use gfb_sweep_case, only: swept_key_type
+  use gfb_operating_point, only: operating_point_type
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_foil_builder, only: keep_elements
+  use gfb_bearing_builder, only: take_numbers, build_changed
+  use gfb_newton, only: newton_type
+  use gfb_vibration_equations, only: combine
+  use gfb_scene_vibration, only: vibration_of
+  use gfb_complex_factors, only: solve_complex, keep_entries
+  use gfb_dynamic_response, only: dynamic_response_type, create_response, find_sample, forces_of, force_gradient, &
+                                  response_failure, destroy_response
+  use gfb_foil_weighing, only: give_mass
+  use gfb_whirl, only: whirl_type, whirl_rates
+  use gfb_corrected_solve, only: solve_corrected
+  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, small
+  implicit none (type)
+  private
+  public :: derive_whirl
+
+  integer, parameter :: planar = 2 !! motions, and forces
+
+  !> of a key that may be 0 and not less: forward differences of second order
+  type(difference_type), parameter :: of_gap = &
+    difference_type(1.0e-4_wp, [0.0_wp, 0.0_wp, -1.5_wp, 2.0_wp, -0.5_wp])
+  character(len=*), parameter :: flips = 'a contact opens or closes at a value close by'
+
+  !> The motions of the whirl's frequency at the answer.
+  type :: whirl_form_type
+    type(whirl_type) :: whirl
+    complex(wp) :: rate !! lambda [1/s]
+    complex(wp) :: matrix(planar, planar)       !! Z [N/m]
+    complex(wp) :: by_frequency(planar, planar) !! its derivative by the frequency [N s/m]
+    real(wp), allocatable :: unknown(:)      !! of the answer, local, in SI
+    real(wp), allocatable :: motion(:, :, :) !! (local unknowns, real and imaginary part, motions) y, in SI
+    logical, allocatable :: closed(:)        !! this rank's contacts
+    type(tVec) :: adjoint(2, planar)         !! (real and imaginary part, forces) z, scaled
+  end type whirl_form_type
+
+contains
+
+  !> Derivatives of critical mass and whirl ratio by all parameters.
+  subroutine derive_whirl(scene, bearing, newton, tangent, whirl, derivative, problem, at)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer, and at the same one after
+    type(newton_type), intent(inout) :: newton !! with the factors of `find_determinant_sign`; what is factored is counted
+    Mat, intent(in) :: tangent !! the equations' matrix at the answer
+    type(whirl_type), intent(in) :: whirl !! of the answer
+    real(wp), intent(inout) :: derivative(:, :) !! ([kg] and [1] over the key's unit, parameter), stays where there is none
+    character(len=:), allocatable, intent(out) :: problem !! why there are none by some parameter
+    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+    type(whirl_form_type) :: form
+    type(tMat) :: of_newton
+    character(len=:), allocatable :: words
+    PetscErrorCode :: ierr
+    integer :: i
+
+    problem = ''
+    if (.not. whirl%found) problem = 'any key: no rigid shaft whirls'
+    if (whirl%found .and. .not. whirl%critical_mass > 0.0_wp) problem = 'any key: every mass whirls, the critical one is 0'
+    if (problem /= '') return
+    form%whirl = whirl
+    form%rate = cmplx(0.0_wp, whirl%ratio*bearing%point%speed, wp)
+    allocate (form%unknown(bearing%local_size()))
+    call bearing%get_unknowns(form%unknown)
+    ! The matrix that has the factors is left alone.
+    of_newton = bearing%jacobian
+    PetscCallA(MatDuplicate(of_newton, MAT_COPY_VALUES, bearing%jacobian, ierr))
+    call find_motions(scene, bearing, newton, form, words)
+    if (words /= '') problem = 'any key: '//words
+    associate (parameter => scene%sensitivity%parameter)
+      do i = 1, merge(size(parameter), 0, words == '')
+        call derive_by(scene, parameter(i), bearing, newton, tangent, form, derivative(:, i), words, at)
+        if (words /= '') problem = parameter(i)%key%label()//': '//words
+      end do
+    end associate
+    PetscCallA(MatDestroy(bearing%jacobian, ierr))
+    bearing%jacobian = of_newton
+    do i = 1, planar
+      PetscCallA(VecDestroy(form%adjoint(1, i), ierr))
+      PetscCallA(VecDestroy(form%adjoint(2, i), ierr))
+    end do
+  end subroutine derive_whirl
+
+  !> Coefficients at the whirl, motions and adjoints, with one factorization.
+  subroutine find_motions(scene, bearing, newton, form, problem)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    type(whirl_form_type), intent(inout) :: form
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    type(dynamic_response_type) :: response
+    complex(wp), allocatable :: z(:, :), slope(:, :)
+    real(wp), allocatable :: gradient(:, :)
+    PetscErrorCode :: ierr
+    logical :: found, all_found
+    integer :: k
+
+    call respond(scene, bearing, form, response)
+    form%closed = closed_contacts(bearing)
+    allocate (form%motion(bearing%local_size(), 2, planar))
+    associate (part => response%part(1), one => response%one, other => response%other, rate => form%rate)
+      allocate (z(size(part%coordinate), size(part%coordinate)), slope(size(part%coordinate), size(part%coordinate)))
+      call find_sample(bearing, response, 1, rate, z, slope, all_found)
+      form%matrix = z(:planar, :planar)
+      form%by_frequency = (0.0_wp, 1.0_wp)*slope(:planar, :planar)
+      gradient = force_gradient(bearing, response, part)
+      do k = 1, planar
+        PetscCallA(VecDuplicate(bearing%state, form%adjoint(1, k), ierr))
+        PetscCallA(VecDuplicate(bearing%state, form%adjoint(2, k), ierr))
+        if (.not. all_found) cycle
+        PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
+        PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
+        PetscCallA(VecScale(other, aimag(rate), ierr))
+        call solve_complex(part%factors, one, other, found)
+        all_found = all_found .and. found
+        call bearing%get_unknowns(form%motion(:, 1, k), one)
+        call bearing%get_unknowns(form%motion(:, 2, k), other)
+        PetscCallA(VecSet(form%adjoint(1, k), 0.0_wp, ierr))
+        PetscCallA(VecSet(form%adjoint(2, k), 0.0_wp, ierr))
+        call bearing%exchange%add(gradient(:, k)*bearing%unknown_scale, form%adjoint(1, k))
+        call keep_entries(form%adjoint(1, k), part%kept)
+        call solve_complex(part%factors, form%adjoint(1, k), form%adjoint(2, k), found, transposed=.true.)
+        all_found = all_found .and. found
+      end do
+    end associate
+    problem = ''
+    if (.not. all_found) problem = response_failure(response)
+    newton%factorizations = newton%factorizations + response%factorizations
+    newton%enlargements = newton%enlargements + response%enlargements
+    call destroy_response(response)
+  end subroutine find_motions
+
+  !> A bearing's response to vibrations, its foil weighed or not as at the answer.
+  subroutine respond(scene, bearing, form, response)
+    type(scene_type), intent(in) :: scene !! of the bearing
+    type(bearing_system_type), intent(inout) :: bearing
+    type(whirl_form_type), intent(in) :: form
+    type(dynamic_response_type), intent(out) :: response !! to be destroyed
+
+    call create_response(bearing, vibration_of(scene), response)
+    call give_mass(bearing, response, merge(mass_on, mass_off, form%whirl%weighs), scene%foil_damping%foil_modes, &
+                   aimag(form%rate))
+  end subroutine respond
+
+  !> Whether this rank's contacts are closed, as they are linearised.
+  function closed_contacts(bearing) result(closed)
+    type(bearing_system_type), intent(in) :: bearing
+    logical, allocatable :: closed(:)
+    integer :: i
+
+    allocate (closed(0))
+    do i = 1, size(bearing%pad)
+      if (bearing%pad(i)%foil%has_contacts()) closed = [closed, bearing%pad(i)%foil%contacts%point%place(3) > 0.0_wp]
+    end do
+  end function closed_contacts
+
+  !> The form of the coefficients in a bearing close by, with the answer's motions and adjoints.
+  subroutine evaluate_form(scene, bearing, form, matrix, problem)
+    type(scene_type), intent(in) :: scene !! of the bearing
+    type(bearing_system_type), intent(inout) :: bearing !! in its state
+    type(whirl_form_type), intent(in) :: form
+    complex(wp), intent(out) :: matrix(:, :) !! Z [N/m]
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    type(dynamic_response_type) :: response
+    complex(wp), allocatable :: force(:)
+    PetscErrorCode :: ierr
+    PetscScalar :: along(2, 2)
+    integer :: i, j, k, n
+
+    call respond(scene, bearing, form, response)
+    problem = ''
+    if (any_rank(any(closed_contacts(bearing) .neqv. form%closed))) problem = flips
+    call combine(response%equations, form%rate)
+    associate (part => response%part(1), one => response%one, other => response%other, rest => response%rise)
+      do k = 1, planar
+        call bearing%exchange%put(form%motion(:, 1, k)/bearing%unknown_scale, one)
+        call bearing%exchange%put(form%motion(:, 2, k)/bearing%unknown_scale, other)
+        force = cmplx(forces_of(bearing, response, part, k, 1.0_wp, one), forces_of(bearing, response, part, k, 0.0_wp, other), wp)
+        call find_rest(response, form%rate, k)
+        do n = 1, 2
+          call keep_entries(rest(n), part%kept)
+        end do
+        do j = 1, planar
+          do i = 1, 2
+            do n = 1, 2
+              PetscCallA(VecDot(form%adjoint(i, j), rest(n), along(i, n), ierr))
+            end do
+          end do
+          matrix(j, k) = force(j) + cmplx(along(1, 1) - along(2, 2), along(1, 2) + along(2, 1), wp)
+        end do
+      end do
+    end associate
+    call destroy_response(response)
+  end subroutine evaluate_form
+
+  !> What the motion in `one` and `other` leaves of the equations, \( b - A y \), into the first two of `rise`.
+  subroutine find_rest(response, rate, coordinate)
+    type(dynamic_response_type), intent(in) :: response !! with A combined
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    integer, intent(in) :: coordinate !! that moves
+    PetscErrorCode :: ierr
+
+    associate (re => response%equations%real_part, im => response%equations%imaginary_part, one => response%one, &
+               other => response%other, rise => response%rise, steady => response%steady_column(coordinate), &
+               squeeze => response%squeeze_column(coordinate))
+      PetscCallA(MatMult(re, one, rise(1), ierr))
+      PetscCallA(MatMult(im, other, rise(3), ierr))
+      PetscCallA(VecAYPX(rise(1), -1.0_wp, rise(3), ierr))
+      PetscCallA(VecAXPY(rise(1), 1.0_wp, steady, ierr))
+      PetscCallA(VecAXPY(rise(1), real(rate, wp), squeeze, ierr))
+      PetscCallA(MatMult(re, other, rise(2), ierr))
+      PetscCallA(MatMult(im, one, rise(4), ierr))
+      PetscCallA(VecAXPY(rise(2), 1.0_wp, rise(4), ierr))
+      PetscCallA(VecScale(rise(2), -1.0_wp, ierr))
+      PetscCallA(VecAXPY(rise(2), aimag(rate), squeeze, ierr))
+    end associate
+  end subroutine find_rest
+
+  !> Derivatives of critical mass and whirl ratio by a key.
+  subroutine derive_by(scene, parameter, bearing, newton, tangent, form, derivative, problem, at)
+    type(scene_type), intent(in) :: scene
+    type(parameter_type), intent(in) :: parameter
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(in) :: newton
+    Mat, intent(in) :: tangent
+    type(whirl_form_type), intent(in) :: form
+    real(wp), intent(inout) :: derivative(:) !! of both, stays where there is none
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    real(wp), intent(in), optional :: at !! [the sweep's unit]
+    complex(wp) :: change(planar, planar), along_answer(planar, planar)
+    real(wp) :: rates(2), turning, direction(bearing%local_size())
+    Vec :: of_residual, of_answer
+    PetscErrorCode :: ierr
+    logical :: solved
+
+    PetscCallA(VecDuplicate(bearing%state, of_residual, ierr))
+    PetscCallA(VecDuplicate(bearing%state, of_answer, ierr))
+    call differ_by_key(scene, parameter, bearing, form, of_residual, change, problem, at)
+    if (problem == '') then
+      call solve_corrected(newton, tangent, of_residual, of_answer, .false., solved)
+      if (.not. solved) problem = 'the linearised equations were not solved'
+    end if
+    if (problem == '') then
+      call bearing%get_unknowns(direction, of_answer) ! minus the change
+      along_answer = 0.0_wp
+      if (parameter%key%is_gap()) then
+        call differ_by_key(scene, parameter, bearing, form, of_residual, change, problem, at, along=-direction)
+      else
+        call differ_by_answer(scene, bearing, form, direction, along_answer, problem)
+      end if
+    end if
+    if (problem == '') then
+      rates = whirl_rates(form%matrix, form%by_frequency, change - along_answer, aimag(form%rate))
+      turning = 0.0_wp
+      if (parameter%key%label() == 'operation%speed_rpm') turning = angular_speed(1.0_wp)
+      derivative = [rates(1), (rates(2) - form%whirl%ratio*turning)/bearing%point%speed]
+    end if
+    PetscCallA(VecDestroy(of_residual, ierr))
+    PetscCallA(VecDestroy(of_answer, ierr))
+  end subroutine derive_by
+
+  !> Derivatives of residual and coefficients by a key, the answer's unknowns held; of the coefficients alone where
+  !> these change as well.
+  subroutine differ_by_key(scene, parameter, bearing, form, of_residual, change, problem, at, along)
+    type(scene_type), intent(in) :: scene
+    type(parameter_type), intent(in) :: parameter
+    type(bearing_system_type), intent(inout) :: bearing
+    type(whirl_form_type), intent(in) :: form
+    Vec, intent(in) :: of_residual !! scaled
+    complex(wp), intent(out) :: change(:, :) !! of Z; of a gap, the unknowns held, it is 0
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    real(wp), intent(in), optional :: at !! [the sweep's unit]
+    real(wp), intent(in), optional :: along(:) !! how local unknowns follow the key, in SI over its unit
+    type(difference_type) :: difference
+    complex(wp) :: matrix(planar, planar)
+    real(wp) :: value, step
+    Vec :: residual
+    PetscErrorCode :: ierr
+    integer :: steps
+
+    value = present_value(scene, parameter, bearing%point, at)
+    difference = difference_of(parameter%key)
+    if (parameter%key%is_gap()) difference = of_gap
+    step = step_of(scene, parameter%key, difference, value)
+    problem = ''
+    if (.not. step > 0.0_wp) problem = 'it is 0 here'
+    change = 0.0_wp
+    PetscCallA(VecDuplicate(bearing%state, residual, ierr))
+    PetscCallA(VecSet(of_residual, 0.0_wp, ierr))
+    do steps = -2, 2
+      if (problem /= '') exit
+      if (.not. abs(difference%weight(steps)) > 0.0_wp) cycle
+      if (present(along)) then
+        call evaluate_with(scene, parameter, value + steps*step, bearing, form, residual, matrix, problem, at, &
+                           form%unknown + steps*step*along)
+      else
+        call evaluate_with(scene, parameter, value + steps*step, bearing, form, residual, matrix, problem, at)
+      end if
+      PetscCallA(VecAXPY(of_residual, difference%weight(steps)/step, residual, ierr))
+      change = change + difference%weight(steps)/step*matrix
+    end do
+    PetscCallA(VecDestroy(residual, ierr))
+  end subroutine differ_by_key
+
+  !> Residual and coefficients at the answer's state with another value of a key, or in another state; the bearing is as
+  !> before on return.
+  subroutine evaluate_with(scene, parameter, value, bearing, form, residual, matrix, problem, at, state)
+    type(scene_type), intent(in) :: scene
+    type(parameter_type), intent(in) :: parameter
+    real(wp), intent(in) :: value !! of the key [its unit]
+    type(bearing_system_type), intent(inout) :: bearing
+    type(whirl_form_type), intent(in) :: form
+    Vec, intent(in) :: residual !! scaled
+    complex(wp), intent(out) :: matrix(:, :) !! Z [N/m]
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    real(wp), intent(in), optional :: at !! [the sweep's unit]
+    real(wp), intent(in), optional :: state(:) !! local unknowns, in SI
+    type(operating_point_type) :: before
+    type(bearing_system_type) :: other
+    type(scene_type) :: there
+    type(error_type), allocatable :: error
+    logical :: moved
+
+    matrix = 0.0_wp
+    if (parameter%key%group == 'operation') then
+      before = bearing%point
+      bearing%point = changed_point(parameter, value, before)
+      call evaluate(scene, bearing)
+      bearing%point = before
+      return
+    end if
+    call scene_with_key(scene, parameter%key, value, there, error, at)
+    if (.not. allocated(error)) then
+      call keep_elements(scene, there)
+      if (keeps_foils(scene, parameter%key)) then
+        call take_numbers(there, bearing)
+        call evaluate(there, bearing)
+        call take_numbers(scene, bearing)
+        call bearing%set_unknowns(form%unknown)
+        call bearing%settle(bearing%state, moved)
+        return
+      end if
+      call build_changed(there, bearing, form%unknown, other, problem, error)
+    end if
+    if (allocated(error)) problem = error%message
+    if (problem /= '') return
+    call evaluate(there, other)
+    call other%destroy()
+
+  contains
+
+    subroutine evaluate(of, changed)
+      type(scene_type), intent(in) :: of
+      type(bearing_system_type), intent(inout) :: changed
+      logical :: valid
+
+      if (present(state)) call changed%set_unknowns(state)
+      call changed%evaluate(changed%state, residual, valid)
+      if (any_rank(.not. valid)) then
+        problem = 'the film is closed at a value close by'
+      else if (present(state) .or. .not. parameter%key%is_gap()) then
+        call evaluate_form(of, changed, form, matrix, problem)
+      end if
+    end subroutine evaluate
+  end subroutine evaluate_with
+
+  !> Whether a key moves no mesh, and leaves what is assembled of the foils as it is.
+  pure logical function keeps_foils(scene, key) result(keeps)
+    type(scene_type), intent(in) :: scene
+    type(swept_key_type), intent(in) :: key
+
+    keeps = meshes_foils(scene%model%foil) .and. keeps_meshes(scene, key)
+    if (key%group == 'top_foil' .or. key%group == 'bump_foil') keeps = keeps .and. key%is_gap()
+  end function keeps_foils
+
+  !> Derivative of the coefficients along a change of the answer.
+  subroutine differ_by_answer(scene, bearing, form, direction, change, problem)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(inout) :: bearing !! on return at its answer again
+    type(whirl_form_type), intent(in) :: form
+    real(wp), intent(in) :: direction(:) !! the change of local unknowns, in SI
+    complex(wp), intent(out) :: change(:, :) !! of Z
+    character(len=:), allocatable, intent(out) :: problem !! empty where there is none
+    complex(wp) :: matrix(planar, planar)
+    real(wp) :: largest(1), step
+    integer :: side
+    logical :: moved
+
+    change = 0.0_wp
+    problem = ''
+    largest = largest_over_ranks([maxval(abs(direction/bearing%unknown_scale))])
+    if (.not. largest(1) > 0.0_wp) return
+    step = small/largest(1)
+    do side = -1, 1, 2
+      call bearing%set_unknowns(form%unknown + side*step*direction)
+      if (problem == '') call evaluate_form(scene, bearing, form, matrix, problem)
+      change = change + 0.5_wp*side/step*matrix
+    end do
+    call bearing%set_unknowns(form%unknown)
+    call bearing%settle(bearing%state, moved)
+  end subroutine differ_by_answer
+end module gfb_whirl_sensitivity
