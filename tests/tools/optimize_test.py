@@ -171,6 +171,18 @@ class Optimize(unittest.TestCase):
         self.assertEqual((found.active, found.finer), (["minimum_gap"], []))
 
     @unittest.skipUnless(HAS_SCIPY, NO_SCIPY)
+    def test_critical_mass_as_a_bound_and_as_the_objective(self):
+        """Less clearance carries more and loses more: the least loss has the mass that is asked for, the largest mass the least clearance."""
+        case = gfb.Case(RIGID | {"scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequency_ratios": 0.5}})
+        vary = {"bearing%clearance": (1.5e-5, 4.0e-5)}
+        found = self.optimize(case, minimize="power_loss", subject_to={"critical_mass": (0.9, None)}, vary=vary, finer={})
+        self.assertEqual(found.active, ["critical_mass"])
+        self.assertAlmostEqual(gfb.run(found.case, self.folder, "plain")["critical_mass"]/0.9, 1.0, delta=2.0e-3)
+        largest = self.optimize(case, maximize="critical_mass", vary=vary, finer={}, name="largest")
+        self.assertEqual(largest.active, ["bearing%clearance"])
+        self.assertGreater(largest.results[0].after, 1.2)
+
+    @unittest.skipUnless(HAS_SCIPY, NO_SCIPY)
     def test_elements_of_a_list(self):
         """Each by itself, (:), and two that share a value, which is then the mean of their targets."""
         program = self.stub((3.0, 5.0, 4.0, 1.0))
@@ -236,6 +248,7 @@ class Optimize(unittest.TestCase):
                 "must be group%key": {"minimize": "power_loss", "vary": {"clearance": (1.0e-5, 4.0e-5)}},
                 "must be a number": {"minimize": "power_loss", "vary": {"scene%analysis": (0.0, 1.0)}},
                 "the case has 2 values": {"minimize": "power_loss", "vary": {"operation%load(3)": (0.0, 1.0)}},
+                "needs analysis = 'linear_dynamics' and &dynamics": {"maximize": "critical_mass", "vary": vary},
                 "no_such_result": {"minimize": "no_such_result", "vary": vary}}.items():
             with self.subTest(reason), self.assertRaisesRegex(gfb.CaseError, reason):
                 self.optimize(case, **words)
@@ -247,8 +260,11 @@ class Optimize(unittest.TestCase):
         with self.assertRaisesRegex(gfb.CaseError, "no direction"):
             self.optimize(case, minimize="power_loss", vary={"operation%load": (0.0, 40.0)})
         program = self.stub((3.0, 5.0))
+        words = {"vary": {"list%values(:)": (1.0, 7.0)}, "gfb": program}
         with self.assertRaisesRegex(gfb.CaseError, "is no start: no answer"):
-            self.optimize(gfb.Case({"list": {"values": (1.0, 6.0)}}), minimize="power_loss", vary={"list%values(:)": (1.0, 7.0)}, gfb=program)
+            self.optimize(gfb.Case({"list": {"values": (1.0, 6.0)}}), minimize="power_loss", **words)
+        with self.assertRaisesRegex(gfb.CaseError, "is no start: the answer has no critical_mass"):
+            self.optimize(gfb.Case({"list": {"values": (6.0, 6.0)}}), minimize="critical_mass", **words)
 
     def test_without_scipy(self):
         with unittest.mock.patch.dict(sys.modules, {"scipy": None, "scipy.optimize": None}), \

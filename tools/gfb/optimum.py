@@ -314,7 +314,7 @@ class Runner:
         try:
             told = {word(quantity): self.told(quantity, place, summary) for quantity in self.quantities}
         except KeyError as error:
-            run.words = f"no derivative: {error.args[0]}"
+            run.words = error.args[0]
             return run
         run.values = {name: value for name, (value, _) in told.items()}
         run.gradients = {name: gradient for name, (_, gradient) in told.items()}
@@ -333,17 +333,19 @@ class Runner:
         return *found, stem, f"no answer, {stem.name}{ENDINGS[NOT_CONVERGED]}" if found[0] == NOT_CONVERGED else ""
 
     def told(self, quantity: Quantity, place: numpy.ndarray, summary: Mapping[str, Any]) -> tuple[float, numpy.ndarray]:
-        """Value and gradient by the variables, which go from 0 to 1; KeyError where there is no derivative."""
+        """Value and gradient by the variables, which go from 0 to 1; KeyError, in words, where one of them is missing."""
         if not isinstance(quantity, str):
             sides = [place + numpy.outer((-STEP, STEP), row) for row in numpy.eye(place.size)]
             return quantity(self.case_at(place)), numpy.array([(quantity(self.case_at(up)) - quantity(self.case_at(down)))/(2.0*STEP)
                                                                for down, up in sides])
+        if quantity not in summary:
+            raise KeyError(f"the answer has no {quantity}")
         gradient = []
         for one in self.variables:
             names = [f"d_{quantity}_d_{key.replace('%', '_')}" + (f"_{number}" if number else "") for key, number in one.places]
             for name in names:
                 if not math.isfinite(summary.get(name, math.nan)):
-                    raise KeyError(name)
+                    raise KeyError(f"no derivative: {name}")
             gradient.append((one.high - one.low)*sum(summary[name] for name in names))
         return summary[quantity], numpy.array(gradient)
 
