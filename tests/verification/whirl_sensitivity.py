@@ -30,7 +30,7 @@ def check(checks, folder, words, content, steps):
 
 
 def check_springs(checks, folder):
-    """Rigid bearings and springs, lossless and with every loss; a held and tilted shaft; pads."""
+    """Rigid bearings and springs, lossless and with every loss; asperities; a held and tilted shaft; pads."""
     springs = vibrating(SPRINGS)
     step = 3.0e-5
     answer = check(checks, folder, "springs", springs, dict.fromkeys((*FILM_KEYS, "operation%load", "model%foundation_stiffness"), step))
@@ -53,6 +53,8 @@ def check_springs(checks, folder):
           stiffness | {"foil_damping%foundation_damping": 1.0e-4})
     check(checks, folder, "springs with Maxwell arms", with_keys(local, foil_damping={"maxwell_stiffness": 2.0e9, "maxwell_time": 3.0e-4}),
           stiffness | {"foil_damping%maxwell_time": 1.0e-4})
+    check(checks, folder, "asperities", with_keys(springs, shaft_contact={"roughness": 3.0e-6, "pressure": 5.0e6, "friction": 0.1},
+                                                  operation={"load": (-40.0, 3.0)}), few | {"shaft_contact%roughness": step})
     check(checks, folder, "three pads", with_keys(springs, pads={"count": 3, "arc": 2.0, "preload": 0.3}), few | {"pads%preload": 1.0e-4})
     held = with_keys(springs)
     held["operation"] = {"speed_rpm": 30000.0, "eccentricity": (2.0e-5, 8.0e-6), "tilt": (2.0e-4, 1.0e-4)}
@@ -71,6 +73,7 @@ def check_foils(checks, folder):
           few | {"foil_damping%loss_factor": 1.0e-4})
     check(checks, folder, "beams, curved law of contacts",
           with_keys(beams, contact={"exponent": 1.5, "normal_stiffness": 1.0e12, "friction_law": "coulomb"}), few)
+    check(checks, folder, "beams over the whole width, tilted", with_keys(beams, operation={"tilt": (1.0e-4, 5.0e-5)}), few)
     check(checks, folder, "beams on three pads",
           with_keys(beams, pads={"count": 3, "arc": 2.0, "preload": 0.3}, bump_foil={"bumps": 4, "pitch": 4.5e-3}), few)
     shape = {"bump_foil%height": 5.0e-5, "bump_foil%half_length": 2.0e-5, "bump_foil%pitch": 8.0e-6}

@@ -123,7 +123,8 @@ contains
     form%closed = closed_contacts(bearing)
     allocate (form%motion(bearing%local_size(), 2, planar))
     associate (part => response%part(1), one => response%one, other => response%other, rate => form%rate)
-      allocate (z(size(part%coordinate), size(part%coordinate)), slope(size(part%coordinate), size(part%coordinate)))
+      allocate (z(size(part%coordinate), size(part%coordinate)), source=(0.0_wp, 0.0_wp))
+      slope = z
       call find_sample(bearing, response, 1, rate, z, slope, all_found)
       form%matrix = z(:planar, :planar)
       form%by_frequency = (0.0_wp, 1.0_wp)*slope(:planar, :planar)
