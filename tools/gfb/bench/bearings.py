@@ -1,4 +1,4 @@
-"""Published bearings: the case files of inputs/bearings/ beside the numbers of their papers (a minute).
+"""Published bearings: the case files of inputs/bearings/ beside the numbers of their papers (three minutes).
 
 What was published, what is assumed and what is expected stands in the first comments of each case file, in lines of
 `! word: text` that go on in lines of `!   text`. Each is run as it is, and again with each of its `varied` keys.
@@ -25,12 +25,15 @@ VARIED = re.compile(r"(?P<key>\w+%\w+) = (?P<values>[^,]+), (?P<meaning>.+)")
 HEAD = """# Published bearings
 
 Written by `tools/bench bearings --docs` from the case files of [inputs/bearings](../../inputs/bearings/), which are run as they are, on coarse
-meshes; a [finer one](comparisons.md) moves the load of the first journal bearing below by a tenth.
+meshes; a [finer one](comparisons.md) moves the load of [Heshmat1982]'s journal bearing by a tenth.
 
 - *Published* is a number that was read in the source named; where its text has another unit or form, the bearing's section says how it
   was turned into a result of gfb. Nothing was read off a curve, quoted from memory or fitted.
-- No source that could be read has all sizes: abstracts name diameters, speeds and loads, not foils. What they leave out is *assumed*, the
-  same for all where that is possible: the foils and the clearance of [Gu2020]'s journal bearing, pads and springs of gfb's own thrust bearings.
+- *Second-hand*: not the report was read, but what a digest of it says, which seems to be written by a language model; its numbers were not held
+  against the report itself.
+- No source that could be read has all sizes: abstracts name diameters, speeds and loads, digests some foils. What they leave out is
+  *assumed*, the same for all where that is possible: the foils and the clearance of [Gu2020]'s journal bearing, pads and springs of gfb's own
+  thrust bearings.
 - *Expected* is the same for all: a factor of 3 either way, because so much is assumed. *As expected* is therefore an agreement of
   orders, no validation; *differs* is a difference beyond it, and the section says what may be behind it.
 - *Varied*: what the answer becomes with one key changed. Where this spreads wider than the difference, the difference tells little.
@@ -38,10 +41,13 @@ meshes; a [finer one](comparisons.md) moves the load of the first journal bearin
 SAID = """
 ## What the lines say
 
-- **Journal bearings** come within about a factor of 2 of what was measured of load and stiffness; top foil, clearance and the film at which a
-  test ends move them as much. The film alone brakes less than a rig measures.
-- **Thrust bearings whose foils are alike everywhere** bear {least:.2f} to {most:.2f} of what is published, rigid pads more than that: the
-  published loads lie between. How stiff the foils are, and how that is spread over a pad, decides; no abstract tells it.
+- **Journal bearings** come within about a factor of 2 of what was measured of load and stiffness, from 35 to 100 mm; top foil, clearance and
+  the film at which a test ends move them as much. gfb's loads are below those of good bearings, and above that of a simple one made from what is
+  public. The film alone brakes less than a rig measures.
+- **Thrust bearings whose foils are alike everywhere** bear {least:.2f} to {most:.2f} of what is published of good ones, rigid pads more than
+  that: the published loads lie between. How stiff the foils are, and how that is spread over a pad, decides; no abstract tells it. Of
+  [Dykas2008]'s bearing, a modest one, the stiffness was measured, and the load agrees. That proves little: from the least to the largest
+  stiffness measured, gfb's load grows several times.
 
 ## Elsewhere
 
@@ -51,11 +57,21 @@ SAID = """
 
 ## Looked for, and left out
 
-- Only the abstract, or its beginning, could be read, and it has no size of the bearing: a third-generation bearing under 222 N at 20,000 to
-  40,000 rpm (Radil and Batcho 2011), power loss in helium, nitrogen and carbon dioxide up to 4.83 MPa (Briggs and others 2008), a thrust
-  bearing that takes off at 18,000 rpm and bears 80 kPa (Kim and Park 2018), air-cycle machines at 90,000 rpm (Heshmat 1993), polymer-coated
-  foils (Coatings 12:1252), lift-off of three pads (Lubricants 13:75), heat of a thrust bearing (Lubricants 12:143).
-- The text could not be read here at all: [Heshmat1983], [SongKim2007], the tests behind [DellaCorteValco2000], and the report [Ruscitto1978] itself.
+Searched were stored web pages, of which the search shows the beginning alone, and files of public repositories, by the names of authors, titles,
+sizes and words of the field in several languages.
+
+- Only the abstract, or its beginning, could be read, and it has no size of the bearing, or no number to compare: a third-generation bearing
+  under 222 N at 20,000 to 40,000 rpm (Radil and Batcho 2011), power loss in helium, nitrogen and carbon dioxide up to 4.83 MPa (Briggs and
+  others 2008), a thrust bearing that takes off at 18,000 rpm and bears 80 kPa (Kim and Park 2018), one of 120 to 170 kPa (a thesis at Arlington,
+  2018), one under 83 N at 80,000 rpm in nitrogen (Behera and Sahoo 2018), a ring of metal mesh of 28 mm (San Andres and Chirathadam 2010),
+  air-cycle machines at 90,000 rpm (Heshmat 1993), turbochargers up to 130,000 rpm (Lee and others 2012; Ryu and others 2015), polymer-coated
+  foils (Coatings 12:1252), lift-off of three pads (Lubricants 13:75), a compressor for fuel cells (Lubricants 13:181), heat of a thrust bearing
+  (Lubricants 12:143).
+- A digest has sizes, but what was measured is a curve or relative: clearances that bear most (Radil, Howard and Dykas 2002), power loss of a
+  bearing of 50 mm over its load (DellaCorte and Bruckner, performance map), thrust bearings in air [Bruckner2012].
+- Programs in public repositories have sizes of foils without a measured number beside them: a bearing of 35 mm of Zhang and others 2023.
+- The text could not be read here at all: [Heshmat1983], [SongKim2007], the tests behind [DellaCorteValco2000], Heshmat 1994, Rubio and San Andres
+  2006, Kim and San Andres 2008, the theses of Dykas, Bruckner and von Osmanski behind their first page, and the report [Ruscitto1978] itself.
 """
 
 
