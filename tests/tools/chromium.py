@@ -92,6 +92,10 @@ class Page:
         """A call for this tab."""
         return self.browser.call(method, self.session, **values)
 
+    def close(self):
+        """Ends it."""
+        self.browser.call("Target.closeTarget", targetId=self.target)
+
     def resize(self, width, height):
         """The size of its window."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""tools/manual --html: every page is there, links lead somewhere, equations are drawn from files beside them."""
+"""tools/manual --html: a folder a version, every page is there, links lead somewhere, equations are drawn from files beside them, no page is
+wider than its window, and the net is never asked."""
 
 import html.parser
 import importlib.util
@@ -14,7 +15,13 @@ import unittest
 import urllib.parse
 
 PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
-BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+sys.path.insert(0, str(PROJECT/"tools"))
+from chromium import BROWSER, Browser  # noqa: E402
+from gfb.html.main import index_of, versions_in  # noqa: E402
+
+VERSION = re.search(r"project\(gfb VERSION ([\d.]+)", (PROJECT/"CMakeLists.txt").read_text(encoding="utf-8"))[1]
+OLDER = "0.0.9"
+WIDTHS = (360, 1300)  # of a telephone and of a screen
 FORD = importlib.util.find_spec("ford") or shutil.which("ford")
 THERE = (all(importlib.util.find_spec(name) for name in ("sphinx", "myst_parser"))
          and pathlib.Path("/usr/share/javascript/mathjax/MathJax.js").exists())
@@ -25,7 +32,7 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self, path):
         super().__init__()
-        self.targets, self.loaded, self.anchors = [], [], set()
+        self.targets, self.outside, self.loaded, self.anchors = [], [], [], set()
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag, attrs):
@@ -33,8 +40,8 @@ class Page(html.parser.HTMLParser):
         self.anchors.add(found.get("id"))
         if tag in ("script", "img", "link"):
             self.loaded += [found[name] for name in ("src", "href") if name in found]
-        elif found.get("href") and "://" not in found["href"]:
-            self.targets.append(found["href"])
+        elif found.get("href"):
+            (self.outside if "://" in found["href"] else self.targets).append(found["href"])
 
 
 @unittest.skipUnless(THERE, "Sphinx, MyST and MathJax are not installed (python3-sphinx, python3-myst-parser, libjs-mathjax)")
@@ -44,26 +51,55 @@ class HtmlTest(unittest.TestCase):
         place = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         cls.addClassCleanup(place.cleanup)
         cls.place = pathlib.Path(place.name)
-        cls.folder = cls.place/"manual"
-        cls.done = subprocess.run([sys.executable, PROJECT/"tools/manual", "--html", cls.folder], capture_output=True, text=True, check=False)
+        cls.manual = cls.place/"manual"
+        cls.folder = cls.manual/VERSION
+        (cls.manual/OLDER).mkdir(parents=True)
+        (cls.manual/OLDER/"objects.inv").write_text("of an older version\n", encoding="utf-8")
+        cls.done = subprocess.run([sys.executable, PROJECT/"tools/manual", "--html", cls.manual], capture_output=True, text=True, check=False)
 
     def test_without_a_warning(self):
         self.assertEqual(self.done.returncode, 0, self.done.stdout + self.done.stderr)
 
+    def test_versions(self):
+        """The page above leads to this version and to what stood there; each page says of which version it is and leads back."""
+        index = Page(self.manual/"index.html")
+        self.assertEqual(index.targets, [f"{VERSION}/docs/README.html", f"{OLDER}/docs/README.html"])
+        self.assertTrue((self.manual/OLDER/"objects.inv").exists())
+        for path in self.pages():
+            text = path.read_text(encoding="utf-8")
+            self.assertIn(f"Version {VERSION};", text, path)
+            self.assertIn(f'href="{os.path.relpath(self.manual/"index.html", path.parent)}"', text, path)
+
+    def test_the_newest_version_comes_first(self):
+        place = self.place/"several"
+        for name in ("0.9.0", "0.10.0", "0.2.11"):
+            (place/name).mkdir(parents=True)
+            (place/name/"objects.inv").touch()
+        self.assertEqual(versions_in(place), ["0.10.0", "0.9.0", "0.2.11"])
+        self.assertIn('<a href="0.10.0/docs/README.html">Version 0.10.0</a>', index_of(versions_in(place)))
+
+    def pages(self):
+        """What Sphinx has made."""
+        return [path for path in sorted(self.folder.rglob("*.html")) if self.folder/"api" not in path.parents and path != self.folder/"index.html"]
+
     def test_every_page_and_every_link(self):
         sources = [PROJECT/"README.md", PROJECT/"CHANGELOG.md", *(PROJECT/"docs").rglob("*.md")]
         self.assertEqual([path for path in sources if not (self.folder/path.relative_to(PROJECT)).with_suffix(".html").exists()], [])
-        pages = {path: Page(path) for path in self.folder.rglob("*.html")
-                 if path.name not in ("search.html", "genindex.html") and self.folder/"api" not in path.parents}
+        pages = {path: Page(path) for path in self.pages()}
         broken = []
         for path, page in pages.items():
-            self.assertEqual([name for name in page.loaded if "://" in name], [], f"{path} needs the net")
-            for target in page.targets:
+            for target in [*page.targets, *(name.partition("?")[0] for name in page.loaded)]:
                 name, _, anchor = urllib.parse.unquote(target).partition("#")
                 other = (path.parent/name).resolve() if name else path
-                if not other.exists() or (anchor and other in pages and anchor not in pages[other].anchors):
+                if "://" in target or not other.exists() or (anchor and other in pages and anchor not in pages[other].anchors):
                     broken.append((path.name, target))
         self.assertEqual(broken, [])
+
+    def test_links_to_the_net_are_addresses(self):
+        outside = {target for path in self.pages() for target in Page(path).outside}
+        self.assertTrue(outside)
+        for target in outside:
+            self.assertRegex(target, r"^https?://[\w-]+(\.[\w-]+)+(/[^\s\"<>]*)?$")
 
     @unittest.skipUnless(FORD, "FORD is not installed (pip install ford)")
     def test_modules(self):
@@ -80,34 +116,62 @@ class HtmlTest(unittest.TestCase):
         self.assertIn("../../_static/mathjax/MathJax.js", page)
         self.assertIn('href="../api/index.html"', (self.folder/"docs/README.html").read_text(encoding="utf-8"))
 
-    @unittest.skipUnless(BROWSER, "Chromium is not installed")
-    def test_equations_in_a_browser(self):
-        page = self.folder/"docs/manual/companions.html"
-        done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--enable-logging=stderr",
-                               f"--user-data-dir={self.place/'profile'}", "--virtual-time-budget=30000", "--dump-dom", page.as_uri()],
-                              capture_output=True, text=True, check=True, timeout=120)
-        self.assertNotIn("CONSOLE", done.stderr)
-        equations = len(re.findall(r'class="math ', page.read_text(encoding="utf-8")))
-        self.assertGreater(equations, 40)
-        self.assertEqual(done.stdout.count('class="MathJax_SVG"') + done.stdout.count('class="MathJax_SVG MathJax'), equations)
-        self.assertNotRegex(done.stdout, r"class=\"[^\"]*(merror|noError)")
+    def open(self, browser, path, width=1300, query=""):
+        """A page as it is when its equations are drawn."""
+        page = browser.page(path.as_uri() + query, width)
+        page.wait("document.readyState === 'complete'")
+        page.run("new Promise((done) => window.MathJax ? MathJax.Hub.Queue(() => done(1)) : done(1))")
+        return page
+
+    def browser(self):
+        """One with a profile of its own, ended with the test."""
+        browser = Browser(tempfile.mkdtemp(dir=self.place))
+        self.addCleanup(browser.close)
+        return browser
 
     @unittest.skipUnless(BROWSER, "Chromium is not installed")
-    def test_pages_fit_a_telephone(self):
-        """No page scrolls to the side, on a telephone or on a screen; a table that is wider does by itself."""
-        for name in ("README", "manual/keys", "manual/results", "manual/three_pad_rotor"):
-            for width in (360, 1300):
-                frame = self.folder/"docs/frame.html"
-                self.addCleanup(frame.unlink, missing_ok=True)
-                frame.write_text(f'<iframe src="{name}.html" width={width} height=900 style="border:0"></iframe><p></p><script>onload = () => {{'
-                                 "const page = document.querySelector('iframe').contentDocument.documentElement;"
-                                 "document.querySelector('p').textContent = `wide ${page.scrollWidth} of ${page.clientWidth}`}</script>", encoding="utf-8")
-                done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--allow-file-access-from-files",
-                                       f"--user-data-dir={self.place/'profile'}", "--virtual-time-budget=30000", "--window-size=1400,1000", "--dump-dom",
-                                       frame.as_uri()], capture_output=True, text=True, check=True, timeout=120)
-                wide, of = map(int, re.search(r"wide (\d+) of (\d+)", done.stdout).groups())
-                self.assertLessEqual(wide, of, f"{name} at {width}")
-                self.assertGreater(of, width - 20)
+    def test_equations_in_a_browser(self):
+        path = self.folder/"docs/manual/companions.html"
+        page = self.open(self.browser(), path)
+        equations = len(re.findall(r'class="math ', path.read_text(encoding="utf-8")))
+        self.assertGreater(equations, 40)
+        self.assertEqual(page.run("document.querySelectorAll('.MathJax_SVG').length"), equations)
+        self.assertEqual(page.run("document.querySelectorAll('.merror, .noError').length"), 0)
+
+    @unittest.skipUnless(BROWSER, "Chromium is not installed")
+    def test_no_page_is_wider_than_its_window(self):
+        """Tables, equations and commands that are wider scroll by themselves. Nothing is asked for but files, and nothing is complained of."""
+        browser = self.browser()
+        for path in [self.manual/"index.html", *self.pages()]:
+            for width in WIDTHS:
+                page = self.open(browser, path, width)
+                self.assertEqual(page.run("[document.documentElement.scrollWidth, document.documentElement.clientWidth]"), [width, width], path)
+                self.assertEqual(page.complaints(), [], path)
+                self.assertEqual([address for address in page.asked() if not address.startswith(("file://", "data:"))], [], path)
+                self.assertEqual(page.run("Array.from(document.images).filter((image) => !image.naturalWidth).map((image) => image.src)"), [], path)
+                page.close()
+
+    @unittest.skipUnless(BROWSER, "Chromium is not installed")
+    def test_the_way_is_reached(self):
+        """The last entry beside a long page on a screen; what stands behind the page on a telephone, by the bar above it."""
+        browser, path = self.browser(), self.folder/"docs/manual/keys.html"
+        seen = "(({top, bottom}) => top >= 0 && bottom <= innerHeight)((%s).getBoundingClientRect())"
+        last, way = "Array.from(document.querySelectorAll('div.sphinxsidebar li a')).at(-1)", "document.querySelector('#way')"
+        page = self.open(browser, path)
+        self.assertFalse(page.run(seen % last))
+        page.run(f"{last}.scrollIntoView({{block: 'center'}})")
+        self.assertTrue(page.run(seen % last))
+        page = self.open(browser, path, 360)
+        self.assertFalse(page.run(seen % way))
+        page.run("document.querySelector('p.bar a[href=\"#way\"]').click()")
+        self.assertTrue(page.run(seen % way))
+
+    @unittest.skipUnless(BROWSER, "Chromium is not installed")
+    def test_search(self):
+        page = self.open(self.browser(), self.folder/"search.html", query="?q=foundation_stiffness")
+        page.wait("document.querySelectorAll('ul.search li a').length > 1")
+        self.assertIn("keys.html", page.run("Array.from(document.querySelectorAll('ul.search li a'), (found) => found.href).join()"))
+        self.assertEqual(page.complaints(), [])
 
     def test_another_folder_stays(self):
         other = self.place/"other"

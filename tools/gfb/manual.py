@@ -6,7 +6,8 @@
   gfb --help       options                     share/: man page, completion of bash, zsh and fish
                    exit statuses               docs/manual/results.md
 
-  --html           all pages as HTML that reads offline   build/manual/index.html
+  --html           all pages as HTML that reads offline   build/manual/VERSION/, and index.html above it, which leads to
+                                                          all versions that are there
 
 A table stands between two lines such as `<!-- keys -->` and `<!-- end of keys -->`. Exit status: 0 the manual is as it
 should be, 1 it differs or has no such place.
@@ -61,12 +62,12 @@ def main():
     parser.add_argument("--share", type=pathlib.Path, default=ROOT/"share", metavar="DIR",
                         help="folder of man page and completions; default: share of this checkout")
     parser.add_argument("--html", type=pathlib.Path, nargs="?", const=ROOT/"build/manual", metavar="DIR",
-                        help="only make HTML pages, in DIR, by default build/manual; needs Sphinx, MyST and MathJax")
+                        help="only make this version's HTML pages in DIR, by default build/manual; needs Sphinx, MyST and MathJax")
     options = parser.parse_args()
     if options.html:
         need_packages("sphinx", "myst_parser")
-        from gfb.html.main import make_pages  # what else tools/manual does needs no Sphinx
-        return make_pages(options.html.resolve())
+        from gfb.html.main import make_manual  # what else tools/manual does needs no Sphinx
+        return make_manual(options.html.resolve())
     gfb = find_gfb(options.gfb)
     differ = [name for name in TABLES if not renew(gfb, name, options.folder/f"{name}.md", options.check)]
     if not renew(gfb, "exit statuses", options.folder/"results.md", options.check, statuses_of(gfb)):

@@ -18,12 +18,15 @@ myst_update_mathjax = False  # that is for MathJax 3; Debian has 2
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
 mathjax2_config = {"SVG": {"linebreaks": {"automatic": True}}}
 html_theme = "alabaster"
-html_theme_options = {"page_width": "75em", "sidebar_width": "15em", "fixed_sidebar": True, "body_max_width": "none", "font_size": "15px", "font_family": "sans-serif",
-                      "show_powered_by": False}
-html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
+html_theme_options = {"page_width": "82em", "sidebar_width": "15em", "fixed_sidebar": True, "body_max_width": "none", "font_size": "15px", "font_family": "sans-serif",
+                      "show_powered_by": False, "show_relbar_bottom": True}
+html_sidebars = {"**": ["version.html", "searchbox.html", "navigation.html"]}
+templates_path = ["templates"]
+pygments_style = "default"  # its colours can be read on grey; the theme's green cannot
 html_static_path, html_css_files = ["static"], ["manual.css"]
 html_copy_source = False
 html_show_sourcelink = False
+html_show_search_summary = False  # a browser reads no other page of a folder
 
 WAY = {
     "Tutorials": ["README", "first_steps", "first_bearing", "first_thrust_bearing", "data_sheet", "first_sweep", "misaligned_shaft", "three_pad_rotor", "first_strip", "python"],
@@ -62,6 +65,7 @@ def add_way(app, name, source):
         source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\n*\n```\n"
     if name in MODULES and os.environ.get("GFB_MODULES"):
         source[0] += f'\n<p><a href="{MODULES[name]}">All modules, procedures and types of the program</a>, by FORD.</p>\n'
+    source[0] = re.sub(r"\[(\w+)\.md\]\(", r"[\1](", source[0])  # a page is no file here
     # A link to a folder or to a file that is no page: the words stay.
     source[0] = re.sub(r"(?<!!)\[([^\]\n]+)\]\((?!\w+://|#)([^)\s]*/|[^)\s#]*\.(?!md|png)\w+|[^)\s#]*/[^.)\s#]+|LICENSE)\)", r"\1", source[0])
 

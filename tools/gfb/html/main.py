@@ -1,5 +1,9 @@
-"""tools/manual --html: the pages by Sphinx and MyST, those of the modules by FORD, equations by a MathJax beside them."""
+"""tools/manual --html: the pages by Sphinx and MyST, those of the modules by FORD, equations by a MathJax beside them.
 
+A version has a folder of its own, which may be moved or copied as a whole; the page above leads to all that stand there.
+"""
+
+import html
 import importlib.util
 import os
 import pathlib
@@ -7,7 +11,9 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
+from gfb import __version__
 from gfb.tool import ROOT, say, stop
 
 HERE = pathlib.Path(__file__).parent
@@ -20,23 +26,57 @@ BOOTSTRAP_PARTS = ("css/bootstrap.min.css", "js/bootstrap.bundle.min.js")
 BOOTSTRAP_OF_FORD = re.compile(r'(src|href)="https://[^"]*/((?:css|js)/bootstrap[^"/]*\.min\.(?:css|js))"((?: rel="stylesheet")?)[^>]*>')
 MATHJAX_OF_FORD = re.compile(r'<script src="https://[^"]*/MathJax\.js\?[^>]*></script>')
 START = '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>gfb</title><meta http-equiv="refresh" content="0; url=docs/README.html">\n'
+INDEX = """<!DOCTYPE html>
+<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>gfb: versions of the manual</title>
+<style>body {{ font: 17px/1.5 sans-serif; color: #222; max-width: 40em; margin: 2em auto; padding: 0 1em }} a {{ color: #004b6b }}</style>
+<h1>gfb</h1>
+<p>The manual, by version, the newest first:</p>
+<ul>
+{items}
+</ul>
+</html>
+"""
+
+
+def make_manual(place):
+    """Builds this version's pages anew in a folder of its own, and the page that leads to all versions."""
+    foreign = [path.name for path in sorted(place.iterdir()) if path.name != "index.html" and not is_manual(path)] if place.exists() else []
+    if foreign:
+        stop(f"{place}: holds something else than pages of the manual, a folder a version: {', '.join(foreign)}")
+    make_pages(place/__version__)
+    (place/"index.html").write_text(index_of(versions_in(place)), encoding="utf-8")
+    print(f"written: {place/'index.html'}")
+    return 0
+
+
+def is_manual(folder):
+    """Whether a folder holds pages that Sphinx has made."""
+    return (folder/"objects.inv").exists()
+
+
+def versions_in(place):
+    """The versions whose pages are there, the newest first."""
+    found = [path.name for path in place.iterdir() if is_manual(path)]
+    return sorted(found, key=lambda name: [(word.isdigit(), int(word) if word.isdigit() else word) for word in re.split(r"[.-]", name)], reverse=True)
+
+
+def index_of(versions):
+    """The page that leads to all versions."""
+    return INDEX.format(items="\n".join(f'<li><a href="{html.escape(name)}/docs/README.html">Version {html.escape(name)}</a></li>' for name in versions))
 
 
 def make_pages(folder):
     """Builds the pages anew; a warning, such as a link that leads nowhere, is a failure."""
     if not (MATHJAX/"MathJax.js").exists():
         stop(f"{MATHJAX} is missing; with apt:\n  apt-get install libjs-mathjax", 3)
-    if folder.exists() and any(folder.iterdir()) and not (folder/"objects.inv").exists():
-        stop(f"{folder}: holds something else than pages of the manual")
     ford = find_ford()
     if ford and not BOOTSTRAP.exists():
         stop(f"{BOOTSTRAP} is missing, the style of FORD's pages; with apt:\n  apt-get install libjs-bootstrap5", 3)
     shutil.rmtree(folder, ignore_errors=True)
-    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", f"{folder}.doctrees", "-c", str(HERE),
-               str(ROOT), str(folder)]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
-                          env={**os.environ, "PYTHONPATH": str(ROOT/"tools"), "GFB_MODULES": "yes" if ford else ""})
-    shutil.rmtree(f"{folder}.doctrees", ignore_errors=True)
+    with tempfile.TemporaryDirectory() as trees:
+        command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", trees, "-c", str(HERE), str(ROOT), str(folder)]
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                              env={**os.environ, "PYTHONPATH": str(ROOT/"tools"), "GFB_MODULES": "yes" if ford else ""})
     if done.returncode != 0:
         stop(f"Sphinx complains:\n{(done.stdout + done.stderr).strip()}")
     for part in PARTS:
@@ -48,8 +88,6 @@ def make_pages(folder):
     else:
         say("without the pages of the modules: ford is missing (pip install ford)")
     (folder/"index.html").write_text(START, encoding="utf-8")
-    print(f"written: {folder/'index.html'}")
-    return 0
 
 
 def find_ford():
