@@ -148,12 +148,12 @@ contains
     type(operating_point_type), intent(in) :: point !! whose speed counts
     real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
     real(wp) :: growth(size(mesh_node))
-    integer :: node
+    integer :: node, row
 
     associate (wall => unknown(heat%first_wall + 1:heat%first_wall + heat%walls))
       do node = 1, size(growth)
-        associate (shaft => wall(heat%shaft_wall(row_of(mesh_node(node), rows))), &
-                   sleeve => wall(heat%sleeve_wall()))
+        row = row_of(mesh_node(node), rows)
+        associate (shaft => wall(heat%shaft_wall(row)), sleeve => wall(heat%sleeve_wall()))
           growth(node) = heat%centrifugal*point%speed**2 &
             + point%growth*(heat%shaft%growth*(shaft - heat%reference) &
                             - heat%sleeve%growth*(sleeve - heat%reference))

@@ -293,7 +293,7 @@ contains
     real(wp), intent(in) :: unknown(:), flow(:)
     type(slit_type) :: slit(size(pads))
     real(wp) :: sums(3, size(pads)) ! flow in, flow out, that times its rise over ambient
-    integer :: i, node
+    integer :: i, neighbour, node
 
     sums = 0.0_wp
     do i = 1, size(pads)
@@ -312,7 +312,8 @@ contains
     end do
     sums = reshape(sum_over_ranks(reshape(sums, [size(sums)])), shape(sums))
     do i = 1, size(pads)
-      associate (inflow => sums(1, i), before => sums(2:, pad_before(pads, i)))
+      neighbour = pad_before(pads, i)
+      associate (inflow => sums(1, i), before => sums(2:, neighbour))
         if (.not. inflow > tiny(1.0_wp)/epsilon(1.0_wp)) cycle
         if (heat%carry_over*before(1) > inflow) then
           slit(i) = slit_type(before(1), before(2), 1.0_wp, 0.0_wp, 1.0_wp)
