@@ -19,7 +19,9 @@ test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py pyth
   python3-scipy python3-jinja2 findent hunspell hunspell-en-gb
   ca-certificates)
 # shellcheck disable=SC2034
-long_packages=(python3-sphinx python3-myst-parser libjs-mathjax dpkg-dev)
+package_packages=(dpkg-dev file patchelf python3-pip python3-setuptools python3-wheel)
+# shellcheck disable=SC2034
+long_packages=("${package_packages[@]}" python3-sphinx python3-myst-parser libjs-mathjax)
 libraries='gfortran, a C compiler, CMake 3.21, Ninja, pkg-config, Open MPI or another MPI, PETSc 3.18 with
   MUMPS, SLEPc 3.18, HDF5 for that MPI with its Fortran interface, METIS, BLAS and LAPACK, Python 3'
 

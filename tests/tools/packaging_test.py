@@ -6,6 +6,7 @@ import importlib.util
 import os
 import pathlib
 import re
+import subprocess
 import unittest
 
 PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
@@ -22,8 +23,9 @@ class Recipes(unittest.TestCase):
     def test_one_version(self):
         for name, pattern in (("CITATION.cff", r"^version: (.*)$"), ("tools/pyproject.toml", r'^version = "(.*)"$'),
                               ("tools/gfb/__init__.py", r'^__version__ = "(.*)"$'), ("packaging/conda/meta.yaml", r'set version = "(.*)"'),
-                              ("share/man/man1/gfb.1", r'"gfb ([\d.]+)"'), ("docs/manual/first_steps.md", r"gfb_([\d.]+)_amd64")):
+                              ("share/man/man1/gfb.1", r'"gfb ([\d.]+)"')):
             self.assertEqual(re.findall(pattern, text_of(name), re.MULTILINE), [VERSION], name)
+        self.assertEqual(set(re.findall(r"gfb[-_](\d+\.\d+\.\d+)", text_of("docs/manual/first_steps.md"))), {VERSION})
 
     def test_python(self):
         """What a user needs of tools/gfb is in the package; what needs a checkout is not."""
@@ -37,6 +39,27 @@ class Recipes(unittest.TestCase):
                 self.assertEqual(used if path.name != "manual.py" else set(), set(), path)
         for module, name in re.findall(r'= "([\w.]+):(\w+)"$', text, re.MULTILINE):
             self.assertIn(f"def {name}():", text_of(f"tools/{module.replace('.', '/')}.py"))
+
+    def test_debian(self):
+        """It recommends what the commands need of Python; its scripts are such."""
+        project = text_of("tools/pyproject.toml")
+        needed = {f"python3-{name}" for line in re.findall(r"^(?:dependencies|report) = \[(.*)\]", project, re.MULTILINE)
+                  for name in re.findall(r'"(\w+)"', line)}
+        recommended = set(re.search(r"^report_packages=\((.*)\)", text_of("tools/setup.sh"), re.MULTILINE)[1].split())
+        self.assertEqual(needed - recommended, {"python3-xarray"})
+        self.assertEqual(recommended - needed, set())
+        scripts = sorted((PACKAGING/"debian").iterdir())
+        self.assertEqual([path.name for path in scripts], ["postinst", "prerm"])
+        for path in scripts:
+            self.assertTrue(os.access(path, os.X_OK), path)
+            subprocess.run(["sh", "-n", path], check=True)
+            self.assertIn(f"packaging/debian/{path.name}", text_of("tools/cmake/gfb_package.cmake"))
+
+    def test_calls_of_the_tool(self):
+        for words, told in (((), "which package"), (("rpm",), "rpm: a package is wheel or deb"), (("deb", "wheel"), "one package at a time"),
+                            (("deb", "--output"), "--output needs a value"), (("deb", "--build", "nowhere"), "there is no gfb")):
+            done = subprocess.run([PROJECT/"tools/package", *words], check=False, text=True, capture_output=True, cwd="/", stdin=subprocess.DEVNULL)
+            self.assertEqual((done.returncode, told in done.stderr), (1, True), done.stderr)
 
     def test_containerfile(self):
         text = text_of("packaging/Containerfile")

@@ -6,11 +6,13 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
+from gfb.case import launcher  # noqa: E402
 from gfb.design_study import tell_tilt  # noqa: E402
 from gfb.results import Unreadable, read_history  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
@@ -40,6 +42,18 @@ class PythonTest(unittest.TestCase):
         self.assertEqual(film.gap.dims, ("theta", "z"))
         self.assertAlmostEqual(float(film.gap.min()), result["minimum_gap"], delta=1e-18)
         self.assertEqual(gfb.Case.parse(data.attrs["case_file"]), gfb.Case(SMALL))
+
+    def test_several_ranks(self):
+        """Started by what came with the program, or else by mpiexec, where nothing is said."""
+        environment = {name: word for name, word in os.environ.items() if name != "GFB_MPIEXEC"}
+        for name in ("gfb", "gfb-mpiexec"):
+            with unittest.mock.patch.dict(os.environ, environment, clear=True):
+                self.assertEqual(launcher(str(self.folder/"gfb")), "mpiexec")
+            (self.folder/name).touch(mode=0o755)
+        with unittest.mock.patch.dict(os.environ, environment, clear=True):
+            self.assertEqual(launcher(str(self.folder/"gfb")), str(self.folder.resolve()/"gfb-mpiexec"))
+        with unittest.mock.patch.dict(os.environ, GFB_MPIEXEC="srun"):
+            self.assertEqual(launcher(str(self.folder/"gfb")), "srun")
 
     def test_sweep(self):
         case = gfb.Case(SMALL)

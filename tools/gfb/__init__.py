@@ -33,11 +33,10 @@ def missing(what: str, error: ModuleNotFoundError) -> ImportError:
 
 
 def __getattr__(name: str) -> object:
-    if name == "run":
-        return importlib.import_module("gfb.run")
-    if name in _HOMES:
+    if name == "run" or name in _HOMES:
         try:
-            return getattr(importlib.import_module(_HOMES[name]), name)
+            module = importlib.import_module(_HOMES.get(name, "gfb.run"))
         except ModuleNotFoundError as error:
             raise missing(f"gfb.{name}", error) from None
+        return module if name == "run" else getattr(module, name)
     raise AttributeError(f"module 'gfb' has no attribute '{name}'")

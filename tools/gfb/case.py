@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sysconfig
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Union
 
@@ -26,12 +27,18 @@ class CaseError(ValueError):
 
 
 def program(given: str | os.PathLike[str] | None = None) -> str:
-    """The program: the one given, that of the environment variable GFB, one on the path, or that of this checkout."""
-    for name in (given, os.environ.get("GFB"), "gfb", ROOT/"build/release/gfb"):
+    """The program: the one given, that of the environment variable GFB, one on the path, that of a wheel beside this Python,
+    or that of this checkout."""
+    for name in (given, os.environ.get("GFB"), "gfb", os.path.join(sysconfig.get_path("scripts"), "gfb"), ROOT/"build/release/gfb"):
         found = shutil.which(name) if name else None
         if found:
             return os.path.abspath(found)
     raise FileNotFoundError("gfb is not found: install it, set GFB, or call tools/run once")
+
+
+def launcher(path: str) -> str:
+    """What starts several ranks of a program: what the environment variable GFB_MPIEXEC names, that of its wheel, or mpiexec."""
+    return os.environ.get("GFB_MPIEXEC") or shutil.which(str(pathlib.Path(path).resolve().with_name("gfb-mpiexec"))) or "mpiexec"
 
 
 class Case:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy
 import xarray
 
-from gfb.case import Case, CaseError, program
+from gfb.case import Case, CaseError, launcher, program
 from gfb.reading import read
 from gfb.results import read_summary
 
@@ -63,9 +63,10 @@ def run(case: Case | str | os.PathLike[str], folder: str | os.PathLike[str] = "r
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     path = case.write(folder/f"{name}.nml") if isinstance(case, Case) else pathlib.Path(case)
-    command = [program(gfb), *options, "--output", str(folder), "--", str(path)]
+    path_of_gfb = program(gfb)
+    command = [path_of_gfb, *options, "--output", str(folder), "--", str(path)]
     if ranks > 1:
-        command = [os.environ.get("GFB_MPIEXEC", "mpiexec"), "-n", str(ranks), *command]
+        command = [launcher(path_of_gfb), "-n", str(ranks), *command]
     done = call(command)
     if done.returncode == WRONG_INPUT:
         raise CaseError(done.stderr.strip())
