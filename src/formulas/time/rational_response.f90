@@ -181,15 +181,15 @@ contains
     class(rational_response_type), intent(in) :: self !! with samples that fit
     complex(wp), allocatable :: rate(:) !! [rad/s]
     complex(wp), dimension(size(self%fit%value, 1), size(self%fit%value, 1)) :: value, slope
-    complex(wp) :: numerator(size(value, 1)), denominator(size(value, 1)), none(1, size(value, 1))
-    complex(wp) :: work(8*size(value, 1))
+    complex(wp) :: numerator(size(value, 1)), denominator(size(value, 1))
+    complex(wp) :: work(8*size(value, 1)), no_left(1, 1), no_right(1, 1)
     real(wp) :: room(8*size(value, 1))
     integer :: info
 
     value = self%fit%value
     slope = self%fit%slope
     call zggev('N', 'N', size(value, 1), value, size(value, 1), slope, size(value, 1), numerator, &
-      denominator, none, 1, none, 1, work, size(work), room, info)
+      denominator, no_left, 1, no_right, 1, work, size(work), room, info)
     if (info /= 0) denominator = 0.0_wp
     associate (finite => abs(denominator) > round_off*abs(numerator))
       rate = self%fit%unit*pack(numerator, finite)/pack(denominator, finite)

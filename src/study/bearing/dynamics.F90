@@ -20,7 +20,6 @@ module gfb_dynamics
   use gfb_dynamic_response, only: dynamic_response_type, create_response, response_failure, destroy_response
   use gfb_frequency_response, only: frequency_response_type, cover_frequencies, coefficients_at, joined_type, join_frequencies, &
                                     most_joined
-  use gfb_vibration_equations, only: vibration_type
   use gfb_scene_vibration, only: vibration_of
   use gfb_foil_mass_choice, only: choose_mass, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
