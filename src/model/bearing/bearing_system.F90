@@ -179,7 +179,7 @@ contains
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
     ! Rows have room for contacts that most of them never get: a copy holds what is used alone.
     PetscCallA(MatDestroy(bearing%jacobian, ierr))
-    PetscCallA(MatDuplicate(bearing%constant, MAT_COPY_VALUES, bearing%jacobian, ierr))
+    PetscCallA(MatDuplicate(bearing%constant, MAT_SHARE_NONZERO_PATTERN, bearing%jacobian, ierr))
     PetscCallA(MatSetOption(bearing%jacobian, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE, ierr))
   end subroutine fill_constant
 

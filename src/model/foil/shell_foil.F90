@@ -34,6 +34,7 @@ module gfb_shell_foil
   use gfb_partition, only: division_type
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_matrix_rows, only: copy_row
+  use gfb_local_exchange, only: local_exchange_type, create_exchange
   use gfb_foil_builder, only: build_top, build_bumps
   use gfb_initial_moment, only: add_initial_moment
   implicit none (type)
@@ -559,28 +560,30 @@ contains
   subroutine count_entries(foil, film)
     type(shell_foil_type), intent(inout) :: foil
     type(film_mesh_type), intent(in) :: film
-    integer, parameter :: per_crest = 25 !! unknowns of a contact
-    integer :: around, crests
+    integer :: tally(0:size(foil%global_unknown)), around, i
+    type(local_exchange_type) :: exchange
+    PetscScalar, pointer :: value(:)
+    Vec :: room
+    PetscErrorCode :: ierr
 
     around = (2*film%order + 1)**2 ! a node and those of the elements around it
     foil%couplings = around
-    ! Elements of the film that are wide against the bumps can hold several crests.
-    crests = 4*(1 + maxval([0, count_crests(foil)]))
-    foil%row_entries = foil%row_entries + around + merge(around, 0, foil%has_room) + per_crest*crests
-  end subroutine count_entries
-
-  !> Crests over the element that has most of them, on this rank.
-  integer function count_crests(foil) result(most)
-    type(shell_foil_type), intent(in) :: foil
-    integer :: tally(size(foil%global_unknown)), i
-
     tally = 0
+    tally(abs(foil%source)) = around + merge(around, 0, foil%has_room)
     do i = 1, size(foil%contacts%point)
-      associate (point => foil%contacts%point(i))
-        if (size(point%share) == 0) cycle
-        if (point%master(radial, 1) > 0) tally(point%master(radial, 1)) = tally(point%master(radial, 1)) + 1
+      associate (unknown => foil%contacts%point_unknowns(i))
+        tally(unknown) = tally(unknown) + count(unknown > 0)
       end associate
     end do
-    most = maxval(tally)
-  end function count_crests
+    ! A rank's contacts may push unknowns of another.
+    call create_exchange(int(foil%global_unknown - 1, pint), foil%state, exchange)
+    PetscCallA(VecDuplicate(foil%state, room, ierr))
+    PetscCallA(VecZeroEntries(room, ierr))
+    call exchange%add(real(tally(1:), wp), room)
+    PetscCallA(GFB_VecGetArrayRead(room, value, ierr))
+    foil%row_entries = foil%row_entries + nint(value)
+    PetscCallA(GFB_VecRestoreArrayRead(room, value, ierr))
+    PetscCallA(VecDestroy(room, ierr))
+    call exchange%destroy()
+  end subroutine count_entries
 end module gfb_shell_foil
