@@ -9,7 +9,7 @@ module gfb_scene_rules
                              check_capacity, check_sample, is_unloaded
   use gfb_foil_rules, only: check_foils, check_shape
   use gfb_model_case, only: needs_meshes, foil_rigid, foil_elastic_foundation, foil_plate, &
-                            meshes_foils, &
+                            foil_shell, meshes_foils, &
                             half_width_yes, reduction_guyan, coupling_partitioned, &
                             foundation_pressure_local
   use gfb_motion_rules, only: check_dynamics, check_foil_mass, check_rotor, check_transient, &
@@ -17,7 +17,8 @@ module gfb_scene_rules
   use gfb_foil_cases, only: missing_of_bumps
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_modes, &
+                            analysis_words, is_bearing
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
   use gfb_study_cases, only: quantities_without_heat, quantities_of_rings, quantities_of_whirl
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
@@ -227,13 +228,35 @@ contains
     end associate
   end subroutine check_shaft_contact
 
+  !> What in a scene of a bearing needs factors of its matrix, or is cheap by them; empty: nothing.
+  pure function what_factors_do(scene) result(words)
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (scene%model%foil /= foil_shell) then
+      words = 'a foil that is not of shells'
+    else if (.not. any(scene%general%analysis == &
+                       [analysis_equilibrium, analysis_fixed_position])) then
+      words = "analysis = '"//trim(analysis_words(scene%general%analysis))//"'"
+    else if (scene%model%coupling == coupling_partitioned) then
+      words = "coupling = 'partitioned' in &model"
+    else if (scene%thermal%present) then
+      words = '&thermal'
+    else if (scene%sensitivity%present) then
+      words = '&sensitivity'
+    else if (scene%solver%stability) then
+      words = 'stability in &solver'
+    end if
+  end function what_factors_do
+
   !> What model, mesh and solver ask of the scene: an elastic foundation its stiffness, or what it
   !> is computed from; half the width a film that is symmetric to the midplane; stability foils
   !> under a film; iterations shells whose matrix is sparse.
   subroutine check_model(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=:), allocatable :: missing
+    character(len=:), allocatable :: missing, factored
     logical :: half, bearing, iterative, pitched
 
     missing = missing_of_bumps(keys, .false., pitched)
@@ -260,10 +283,11 @@ contains
       call keys%rule('solver', 'linear_solver', analysis == analysis_modes .and. &
                      solver%linear_solver /= linear_solver_direct, "must be 'direct' for modes")
       iterative = analysis /= analysis_modes .and. solver%linear_solver == linear_solver_iterative
-      call keys%rule('solver', 'linear_solver', iterative .and. bearing, "'iterative' needs a "// &
-                     'strip: the matrix of film, foils and shaft has no definite sign; '// &
-                     "'out_of_core' saves memory, too")
-      call keys%rule('solver', 'linear_solver', iterative .and. .not. bearing .and. &
+      factored = ''
+      if (iterative .and. bearing) factored = what_factors_do(scene)
+      call keys%rule('solver', 'linear_solver', factored /= '', "'iterative' has no factors, "// &
+                     'and '//factored//" needs them; 'out_of_core' saves memory, too")
+      call keys%rule('solver', 'linear_solver', iterative .and. factored == '' .and. &
                      model%reduction == reduction_guyan, "'iterative' needs reduction = "// &
                      "'none' in &model: rows of condensed bumps are full, and hold more than "// &
                      'their factors')

@@ -7,6 +7,7 @@ import re
 import subprocess
 import tempfile
 
+import shell_bearing
 from contact_strips import COARSE, SMALL, pressed, squeezed
 from gfb_run import GFB, SECONDS, Bearing, Checks, largest_difference, run, summary_difference
 from strips import fields, solve
@@ -14,6 +15,7 @@ from strips import fields, solve
 FACTOR = 1.5  # between estimate and peak, as the log states it
 HELD = {"support": "held", "pressure": 0.2e6, "steps_up": 1}
 FULL = {"reduction": "none"}
+LEFT = "the linear iterations did not converge: factors from here on"
 WRITTEN = ("--check",)  # a case that is not solved yet
 UNIT = {"MB": 1.0e6, "GB": 1.0e9}
 
@@ -46,6 +48,31 @@ def check_same(checks, folder):
     checks.below("held, iterative, 2 ranks: summary", summary_difference(two, held("direct"))[0], 1.0e-9)
 
 
+def check_bearings(checks, folder):
+    """Film, foils and shaft by iterations and by factors: half and whole width, two ranks; factors go on where
+    iterations do not."""
+
+    def bearing(name, linear_solver, axial=24, ranks=1, options=("--verbose",), **groups):
+        mesh = {"circumferential_elements": 104, "axial_elements": axial, "arc_elements": 8, "flat_elements": 2}
+        return shell_bearing.solve(folder, name, ranks, options=options, mesh=mesh, model=dict(FULL),
+                                   solver={"linear_solver": linear_solver}, **groups)
+
+    tilted = {"operation": {"tilt": (0.0, 1.0e-4)}}
+    for words, axial, groups, ranks in (("half the width", 24, {}, 1), ("half the width", 24, {}, 2), ("tilted", 32, tilted, 1)):
+        base = bearing("base", "direct", axial, **groups)
+        other = bearing("other", "iterative", axial, ranks, **groups)
+        where = f"bearing, {words}, {ranks} rank(s)"
+        values, others = base.physical(), other.physical()
+        checks.that(f"{where}: what factors alone tell is left out", set(values) - set(others) == {"determinant_sign", "edge_stiffness"})
+        checks.below(f"{where}: iterations against factors",
+                     max(abs(others[name] - values[name])/shell_bearing.SIZES.get(name, abs(values[name])) for name in others
+                         if values[name] != others[name]), 1.0e-8)
+        checks.that(f"{where}: iterations sufficed", "factors from here on" not in other.log)
+    bearing("left", "iterative", options=WRITTEN)
+    status, log = run_with(pathlib.Path(folder)/"left.nml", folder, "-bearing_ksp_max_it", "2")
+    checks.that("bearing: factors go on, which is said once", status == 0 and log.count(LEFT) == 1)
+
+
 def run_with(path, folder, *petsc):
     """Status and log of a case with options of PETSc's."""
     done = subprocess.run([GFB, "--output", str(folder), str(path), "--petsc", *petsc],
@@ -71,14 +98,15 @@ def check_growth(checks, folder):
 
 
 def check_failures(checks, folder):
-    """Iterations that do not converge, and factors that do not fit, are sentences and no answers."""
-    for solver, words, petsc in (("iterative", "the linear iterations did not converge", ("-strip_ksp_max_it", "2")),
-                                 ("direct", "MUMPS ran out of memory", ("-strip_mat_mumps_icntl_23", "1"))):
-        solve(folder, "failing", strip_load=dict(HELD), mesh=SMALL, model=dict(FULL), solver={"linear_solver": solver},
+    """Iterations that do not converge go on with factors; factors that do not fit are a sentence and no answer."""
+    for solver, words, petsc, ends in (
+            ("iterative", LEFT, ("-strip_ksp_max_it", "2"), 0),
+            ("direct", "MUMPS ran out of memory", ("-strip_mat_mumps_icntl_23", "1"), 2)):
+        solve(folder, f"failing_{solver}", strip_load=dict(HELD), mesh=SMALL, model=dict(FULL), solver={"linear_solver": solver},
               options=WRITTEN)
-        status, log = run_with(pathlib.Path(folder)/"failing.nml", folder, *petsc)
-        checks.that(f"{solver}: status 2 and '{words}'", status == 2 and words in log)
-        checks.that(f"{solver}: no answer is written", not (pathlib.Path(folder)/"failing.summary").exists())
+        status, log = run_with(pathlib.Path(folder)/f"failing_{solver}.nml", folder, *petsc)
+        checks.that(f"{solver}: status {ends} and '{words}'", status == ends and log.count(words) == 1)
+        checks.that(f"{solver}: an answer is written where there is one", (pathlib.Path(folder)/f"failing_{solver}.summary").exists() == (ends == 0))
 
 
 def estimate(path, status=0):
@@ -124,6 +152,7 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         check_same(checks, folder)
+        check_bearings(checks, folder)
         check_growth(checks, folder)
         check_failures(checks, folder)
         check_estimates(checks, folder)

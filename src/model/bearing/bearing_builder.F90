@@ -35,6 +35,7 @@ module gfb_bearing_builder
   use gfb_thermal_case, only: foil_sheet
   use gfb_pad, only: pad_place_type, create_pad_film, move_crests
   use gfb_bearing_system, only: bearing_system_type, create_bearing_system
+  use gfb_mesh_case, only: linear_solver_iterative
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_foundation_foil, only: foundation_foil_type, build_foundation
   use gfb_shell_foil, only: shell_foil_type, create_shell_foil
@@ -209,6 +210,7 @@ contains
       call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, foil%rate, bearing%pad(1)%film)
     end if
     call create_bearing_system(bearing, foil, floats, scene%operation%moment_given, place)
+    if (scene%solver%linear_solver == linear_solver_iterative) call bearing%find_motions()
     call take_film_numbers(scene, bearing)
   end subroutine build_on_mesh
 

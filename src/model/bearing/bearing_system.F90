@@ -21,7 +21,7 @@ module gfb_bearing_system
   use gfb_local_exchange, only: create_exchange
   use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian, walls_of
   use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
-  use gfb_foil_rows, only: add_of_foil, soften_foils, add_softness
+  use gfb_foil_rows, only: add_of_foil, create_bearing_motions, soften_foils, add_softness
   implicit none (type)
   private
   public :: create_bearing_system, set_up_equations, free_equations, heat_flows, number_by, bearing_order, path_order, visit_bearing, visit_switches
@@ -44,7 +44,7 @@ module gfb_bearing_system
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
     procedure :: commit => commit_bearing
-    procedure :: return_to
+    procedure :: return_to, find_motions
     procedure :: destroy => destroy_bearing
   end type bearing_system_type
 
@@ -137,6 +137,12 @@ contains
       PetscCallA(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1_pint, size(global, kind=pint), global, PETSC_COPY_VALUES, bearing%numbers(i), ierr))
     end do
   end subroutine create_numbers
+
+  !> Finds the motions that an iterative solver needs.
+  subroutine find_motions(self)
+    class(bearing_system_type), intent(inout) :: self !! the bearing's equations
+    call create_bearing_motions(self%blocks, self%pad, self%jacobian, self%motions, self%has_motions)
+  end subroutine find_motions
 
   !> From now on a matrix is filled by the local numbers of a pad, behind them walls' and the shaft's; 0: by the bearing's.
   subroutine number_by(bearing, i, matrix)
@@ -585,6 +591,10 @@ contains
     integer :: i
 
     PetscCallA(MatDestroy(bearing%jacobian, ierr))
+    if (bearing%has_motions) then
+      PetscCallA(MatDestroy(bearing%motions, ierr))
+      bearing%has_motions = .false.
+    end if
     if (bearing%is_meshed()) then
       PetscCallA(MatDestroy(bearing%constant, ierr))
     end if

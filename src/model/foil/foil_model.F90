@@ -45,7 +45,7 @@ module gfb_foil_model
     real(wp) :: modulus(2) = 1.0_wp            !! Young's, of top foil and bumps, over those that the foil was built with [1]
   contains
     procedure :: add_residual, add_jacobian, add_constant, add_load_rates, estimate, is_meshed, soften, add_modulus_rates
-    procedure :: add_mass, natural_numbers, surfaces, own_unknown, motions, nodal_contacts, sizes
+    procedure :: create_coarse_motions, add_mass, natural_numbers, surfaces, own_unknown, motions, nodal_contacts, sizes
     procedure :: destroy, place, local_unknowns, own_part, deflection, has_contacts, settle
     procedure :: begin_step, settle_at, commit, add_springs, put_damping, softest, crest_lengths
     procedure :: next_contact_change, add_penetration_rates, line_forces
@@ -120,6 +120,14 @@ contains
     class(foil_model_type), intent(in) :: self !! the foil
     meshed = .false.
   end function is_meshed
+
+  !> The coarse space of an iterative solver, in the foil's own numbers and scaled unknowns; says whether there is one.
+  subroutine create_coarse_motions(self, motions, has)
+    class(foil_model_type), intent(in) :: self !! the foil
+    Mat, intent(out) :: motions !! (unknowns, motions)
+    logical, intent(out) :: has !! the foil is of shells, none of them condensed
+    has = .false.
+  end subroutine create_coarse_motions
 
   !> Adds the consistent mass of all that is not condensed, in the foil's own numbers, and lists the
   !> condensed pieces of this rank. The scene gives densities.

@@ -19,6 +19,7 @@ module gfb_shell_foil
   use gfb_foil_places, only: foil_ranges_type, ranges_of, top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_stress, only: shell_stresses
+  use gfb_rigid_modes, only: patch_type, find_patches, create_motions
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   use gfb_text, only: text
   use gfb_foil_cases, only: gap_of_crest, gap_of_corner
@@ -45,6 +46,7 @@ module gfb_shell_foil
   type, extends(meshed_foil_type), public :: shell_foil_type
     type(foil_structure_type) :: top, bumps
   contains
+    procedure :: create_coarse_motions => patches_of_shells
     procedure :: add_mass => add_shell_mass
     procedure :: natural_numbers => shell_natural_numbers
     procedure :: surfaces => shell_surfaces
@@ -63,6 +65,34 @@ module gfb_shell_foil
   integer, parameter :: radial = 2 !! components of a displacement
 
 contains
+
+  !> Patches of both foils that move as rigid bodies.
+  subroutine patches_of_shells(self, motions, has)
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    Mat, intent(out) :: motions !! (unknowns, motions)
+    logical, intent(out) :: has !! no bumps are condensed
+    type(patch_type), allocatable :: of_top(:), of_bumps(:)
+    real(wp) :: unit(self%owned)
+    PetscScalar, pointer :: values(:)
+    PetscInt :: first, last
+    Vec :: inverse
+    PetscErrorCode :: ierr
+    integer :: i
+
+    has = .not. self%bumps%reduced
+    if (.not. has) return
+    PetscCallA(MatGetOwnershipRange(self%elastic, first, last, ierr))
+    unit = 1.0_wp ! `elastic` is in SI
+    call find_patches(self%top, [(first + i - 1, i=1, self%owned_top)], unit, of_top)
+    call find_patches(self%bumps, [(first + i - 1, i=self%owned_top + 1, self%owned)], unit, of_bumps)
+    call create_motions([of_top, of_bumps], self%elastic, motions)
+    PetscCallA(VecDuplicate(self%state, inverse, ierr))
+    PetscCallA(GFB_VecGetArray(inverse, values, ierr))
+    values = 1.0_wp/self%unknown_scale(self%own_place)
+    PetscCallA(GFB_VecRestoreArray(inverse, values, ierr))
+    PetscCallA(MatDiagonalScale(motions, inverse, PETSC_NULL_VEC, ierr))
+    PetscCallA(VecDestroy(inverse, ierr))
+  end subroutine patches_of_shells
 
   !> Mass of both foils, or of the top foil and, piece by piece, what the condensed bumps are.
   !>

@@ -16,7 +16,7 @@ module gfb_strip_system
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_strain_energy, only: strain_products
   use gfb_local_exchange, only: local_exchange_type, create_exchange
-  use gfb_rigid_modes, only: create_rigid_modes
+  use gfb_rigid_modes, only: patch_type, find_patches, create_motions
   use gfb_matrix_rows, only: copy_row
   use gfb_border_rows, only: border_type, create_border
   use gfb_nonlinear_system, only: nonlinear_system_type
@@ -238,8 +238,17 @@ contains
   !> Finds the motions that an iterative solver needs.
   subroutine find_motions(self)
     class(strip_system_type), intent(inout) :: self !! the strip
+    type(patch_type), allocatable :: patch(:)
+    PetscScalar, pointer :: unit(:)
+    PetscInt :: first, last
+    PetscErrorCode :: ierr
+    integer :: i
 
-    call create_rigid_modes(self%foil, self%unit, self%elastic, self%motions)
+    PetscCallA(VecGetOwnershipRange(self%unit, first, last, ierr))
+    PetscCallA(GFB_VecGetArrayRead(self%unit, unit, ierr))
+    call find_patches(self%foil, [(first + i - 1, i=1, self%foil%part%owned_unknowns)], unit, patch)
+    PetscCallA(GFB_VecRestoreArrayRead(self%unit, unit, ierr))
+    call create_motions(patch, self%elastic, self%motions)
     self%has_motions = .true.
   end subroutine find_motions
 

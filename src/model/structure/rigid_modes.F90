@@ -12,7 +12,7 @@ module gfb_rigid_modes
   use gfb_shell_geometry, only: node_unknowns
   implicit none (type)
   private
-  public :: cut_into_patches, create_rigid_modes, node_motions
+  public :: cut_into_patches, find_patches, create_motions, node_motions
 
   integer, parameter :: space = 3
   integer, parameter :: modes = 2*space
@@ -23,9 +23,9 @@ module gfb_rigid_modes
   real(wp), parameter :: damping = 4.0_wp/3.0_wp !! of Jacobi's step over the inverse of that eigenvalue
 
   !> What a patch can do.
-  type :: patch_type
-    integer(pint), allocatable :: row(:) !! its unknowns' numbers in the whole, from 0
-    real(wp), allocatable :: mode(:, :) !! (unknowns, motions) orthonormal
+  type, public :: patch_type
+    integer(pint), allocatable, private :: row(:) !! its unknowns' numbers in the whole, from 0
+    real(wp), allocatable, private :: mode(:, :) !! (unknowns, motions) orthonormal
   end type patch_type
 
 contains
@@ -103,88 +103,69 @@ contains
     before = key(one) < key(other) .or. (key(one) <= key(other) .and. one < other)
   end function comes_first
 
-  !> The matrix that takes motions of patches to unknowns: rigid ones, smoothed.
-  subroutine create_rigid_modes(foil, unit, stiffness, motions)
-    type(foil_structure_type), intent(in) :: foil !! whose unknowns they move
-    Vec, intent(in) :: unit      !! one scaled unknown is so much [m] or [1]
-    Mat, intent(in) :: stiffness !! scaled
-    Mat, intent(out) :: motions  !! (unknowns, motions)
-
-    call create_tentative(foil, unit, motions)
-    call smooth_motions(stiffness, motions)
-  end subroutine create_rigid_modes
-
-  !> Rigid motions of patches, with orthonormal columns.
-  !>
-  !> A patch lies on one rank. Unknowns after the foil's, such as a plate's, move on their own.
-  subroutine create_tentative(foil, unit, matrix)
-    type(foil_structure_type), intent(in) :: foil
-    Vec, intent(in) :: unit    !! one scaled unknown is so much [m] or [1]
-    Mat, intent(out) :: matrix !! (unknowns, motions)
-
-    type(patch_type), allocatable :: patch(:)
-    integer, allocatable :: owned(:), number(:)
-    PetscInt, allocatable :: column(:)
-    PetscInt :: first, last, own, before
-    PetscErrorCode :: ierr
-    integer :: i, k, patches
+  !> The patches of one foil's nodes on this rank, and how they move; a patch lies on one rank.
+  subroutine find_patches(foil, row, unit, patch)
+    type(foil_structure_type), intent(in) :: foil !! of shells
+    integer(pint), intent(in) :: row(:) !! number, from 0, of each unknown of the foil that this rank owns, in what is to be moved
+    real(wp), intent(in) :: unit(:)     !! one scaled unknown of them is so much [m] or [1]
+    type(patch_type), allocatable, intent(out) :: patch(:) !! this rank's
+    integer, allocatable :: owned(:), number(:), member(:), start(:), node(:), own(:)
+    real(wp), allocatable :: mode(:, :)
+    integer :: i, patches
 
     owned = pack([(i, i=1, size(foil%part%mesh_node))], foil%part%owned)
     call cut_into_patches(foil%mesh%position(:, foil%part%mesh_node(owned)), patch_nodes, number, patches)
+    call list_members(number, patches, member, start)
     allocate (patch(patches))
-    call find_modes(foil, owned, number, unit, patch)
-    PetscCallA(VecGetOwnershipRange(unit, first, last, ierr))
-    own = last - first - foil%part%owned_unknowns
     do i = 1, patches
-      own = own + size(patch(i)%mode, 2)
+      node = foil%part%mesh_node(owned(member(start(i):start(i + 1) - 1)))
+      call rigid_motions(foil, node, own, mode)
+      mode = mode/spread(unit(own), 2, modes)
+      call orthonormalise(mode, patch(i)%mode)
+      patch(i)%row = row(own)
     end do
-    PetscCallA(MatCreate(PETSC_COMM_WORLD, matrix, ierr))
-    PetscCallA(MatSetSizes(matrix, last - first, own, PETSC_DETERMINE, PETSC_DETERMINE, ierr))
-    PetscCallA(MatSetType(matrix, MATAIJ, ierr))
-    PetscCallA(MatSeqAIJSetPreallocation(matrix, int(modes, pint), PETSC_NULL_INTEGER_ARRAY, ierr))
-    PetscCallA(MatMPIAIJSetPreallocation(matrix, int(modes, pint), PETSC_NULL_INTEGER_ARRAY, 0_pint, PETSC_NULL_INTEGER_ARRAY, ierr))
-    PetscCallA(MatGetOwnershipRangeColumn(matrix, before, last, ierr))
-    do i = 1, patches
+  end subroutine find_patches
+
+  !> The matrix that takes motions of patches to unknowns: rigid ones, smoothed. Unknowns that no patch moves, such as a
+  !> plate's, move on their own.
+  subroutine create_motions(patch, stiffness, motions)
+    type(patch_type), intent(in) :: patch(:) !! this rank's
+    Mat, intent(in) :: stiffness !! scaled
+    Mat, intent(out) :: motions  !! (unknowns, motions)
+    PetscInt, allocatable :: column(:)
+    PetscInt :: first, last, before
+    PetscErrorCode :: ierr
+    logical, allocatable :: moved(:)
+    integer :: i, k
+
+    PetscCallA(MatGetOwnershipRange(stiffness, first, last, ierr))
+    allocate (moved(first:last - 1), source=.false.)
+    do i = 1, size(patch)
+      moved(patch(i)%row) = .true.
+    end do
+    PetscCallA(MatCreate(PETSC_COMM_WORLD, motions, ierr))
+    PetscCallA(MatSetSizes(motions, last - first, int(sum([(size(patch(i)%mode, 2), i=1, size(patch))]) + count(.not. moved), pint), PETSC_DETERMINE, PETSC_DETERMINE, ierr))
+    PetscCallA(MatSetType(motions, MATAIJ, ierr))
+    PetscCallA(MatSeqAIJSetPreallocation(motions, int(modes, pint), PETSC_NULL_INTEGER_ARRAY, ierr))
+    PetscCallA(MatMPIAIJSetPreallocation(motions, int(modes, pint), PETSC_NULL_INTEGER_ARRAY, 0_pint, PETSC_NULL_INTEGER_ARRAY, ierr))
+    PetscCallA(MatGetOwnershipRangeColumn(motions, before, last, ierr))
+    do i = 1, size(patch)
       associate (mode => patch(i)%mode)
         column = [(before + int(k - 1, pint), k=1, size(mode, 2))]
         before = before + size(mode, 2, pint)
         ! PETSc reads a block row by row.
-        PetscCallA(MatSetValues(matrix, size(mode, 1, pint), patch(i)%row, size(column, 1, pint), column, reshape(transpose(mode), [size(mode)]), INSERT_VALUES, ierr))
+        PetscCallA(MatSetValues(motions, size(mode, 1, pint), patch(i)%row, size(column, 1, pint), column, reshape(transpose(mode), [size(mode)]), INSERT_VALUES, ierr))
       end associate
     end do
-    do k = 0, int(last - before) - 1
-      PetscCallA(MatSetValue(matrix, first + foil%part%owned_unknowns + k, before + k, 1.0_wp, INSERT_VALUES, ierr))
+    do i = lbound(moved, 1), ubound(moved, 1)
+      if (moved(i)) cycle
+      PetscCallA(MatSetValue(motions, int(i, pint), before, 1.0_wp, INSERT_VALUES, ierr))
+      before = before + 1
     end do
-    PetscCallA(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY, ierr))
-    PetscCallA(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY, ierr))
-  end subroutine create_tentative
-
-  !> Motions of every patch of this rank.
-  subroutine find_modes(foil, owned, number, unit, patch)
-    type(foil_structure_type), intent(in) :: foil
-    integer, intent(in) :: owned(:)  !! this rank's own among its nodes
-    integer, intent(in) :: number(:) !! of the patch of each of them
-    Vec, intent(in) :: unit          !! one scaled unknown is so much [m] or [1]
-    type(patch_type), intent(inout) :: patch(:)
-
-    PetscScalar, pointer :: unit_of(:)
-    PetscInt :: first, last
-    PetscErrorCode :: ierr
-    integer, allocatable :: member(:), start(:), node(:)
-    real(wp), allocatable :: mode(:, :)
-    integer :: i
-
-    call list_members(number, size(patch), member, start)
-    PetscCallA(VecGetOwnershipRange(unit, first, last, ierr))
-    PetscCallA(GFB_VecGetArrayRead(unit, unit_of, ierr))
-    do i = 1, size(patch)
-      node = foil%part%mesh_node(owned(member(start(i):start(i + 1) - 1)))
-      call rigid_motions(foil, node, patch(i)%row, mode)
-      mode = mode/spread(unit_of(patch(i)%row - first + 1), 2, modes)
-      call orthonormalise(mode, patch(i)%mode)
-    end do
-    PetscCallA(GFB_VecRestoreArrayRead(unit, unit_of, ierr))
-  end subroutine find_modes
+    PetscCallA(MatAssemblyBegin(motions, MAT_FINAL_ASSEMBLY, ierr))
+    PetscCallA(MatAssemblyEnd(motions, MAT_FINAL_ASSEMBLY, ierr))
+    call smooth_motions(stiffness, motions)
+  end subroutine create_motions
 
   !> The members of each patch, one patch after the other.
   pure subroutine list_members(number, patches, member, start)
@@ -214,7 +195,7 @@ contains
   pure subroutine rigid_motions(foil, node, row, mode)
     type(foil_structure_type), intent(in) :: foil
     integer, intent(in) :: node(:) !! of the whole mesh
-    PetscInt, allocatable, intent(out) :: row(:)      !! numbers of their unknowns, from 0
+    integer, allocatable, intent(out) :: row(:)       !! their unknowns among those that this rank owns, from 1
     real(wp), allocatable, intent(out) :: mode(:, :)  !! (unknowns, 6) [m] or [1]
     real(wp) :: middle(space), motion(node_unknowns, modes)
     integer :: i, component, found
@@ -228,7 +209,7 @@ contains
         do component = 1, node_unknowns
           if (foil%unknown(component, node(i)) < 0) cycle
           found = found + 1
-          row(found) = int(foil%unknown(component, node(i)), pint)
+          row(found) = foil%unknown(component, node(i)) - foil%first + 1
           mode(found, :) = motion(component, :)
         end do
       end do

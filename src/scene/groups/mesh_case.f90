@@ -90,8 +90,8 @@ contains
     call keys%logical_key('stability', solver%stability, &
                           'count the growing modes of the foils, with the shaft fixed')
     call keys%choice_key('linear_solver', solver%linear_solver, linear_words, &
-                         'factors in memory, factors in files, or iterations (uncondensed '// &
-                         'strips of shells only)')
+                         'factors in memory, factors in files, or iterations (shells whose '// &
+                         'bumps are not condensed)')
     call keys%logical_key('memory_check', solver%memory_check, &
                           'refuse a scene that needs more memory than the machine has')
   end subroutine read_solver_case

@@ -302,8 +302,8 @@ contains
     CHKERRQ(ierr)
     call measure_step(line, x, f, y, before, ierr)
     CHKERRQ(ierr)
-    if (system%slow_change) then
-      call judge_linear(solver, snes, system%jacobian, f, y, trial, solved, ierr)
+    if (system%slow_change .or. solver%iterates) then
+      call judge_linear(solver, snes, system, f, y, trial, solved, ierr)
       CHKERRQ(ierr)
       if (.not. solved) then ! again with new factors
         line%length = 0.0_wp

@@ -42,11 +42,9 @@ module gfb_linear_solver
   end type lagged_factors_type
 
   integer(pint), parameter :: longest = 500        !! iterations of a solve at most
-  integer(pint), parameter :: restart = 60         !! of GMRES
-  real(wp), parameter :: tolerance = 1.0e-5_wp     !! of the preconditioned residual, relative
-  !> Of the true residual, relative: Newton's last steps start at round-off, which is all that the
-  !> iterations can reach then.
-  real(wp), parameter :: true_tolerance = 1.0e-3_wp
+  integer(pint), parameter :: restart = 20         !! of GMRES
+  real(wp), parameter :: tolerance = 1.0e-5_wp     !! of the energy of what is left, relative
+  real(wp), parameter :: true_tolerance = 1.0e-2_wp !! of the true residual, relative: Newton's method corrects what is left
   integer, parameter :: slower = 2                 !! growth of the iterations after which a new coarse level pays
   real(wp), parameter :: hopeless = 1.0e10_wp      !! growth of the residual that ends a solve
 
@@ -67,7 +65,8 @@ module gfb_linear_solver
   type, public :: linear_solver_type
     logical :: fresh = .false.                !! they belong to the present state
     character(len=:), allocatable :: unsolved !! why a linear system was not solved, in words; else empty
-    logical, private :: iterates = .false.    !! linear systems are solved by multigrid
+    logical :: iterates = .false.             !! linear systems are solved by multigrid
+    logical :: left = .false.                 !! multigrid has failed since this was last said
     logical, private :: keep = .false.        !! use the present factors again
     logical :: forgotten = .true.             !! there are no factors since the beginning, or since they were dropped
     logical, private :: ready = .false.       !! they belong to an answer, and no solve has begun since
@@ -147,20 +146,21 @@ contains
     coarse = '-'//prefix//'mg_coarse_'
     call set_option_default('-'//prefix//'pc_mg_levels', '2')
     call set_option_default('-'//prefix//'pc_mg_galerkin', 'both')
-    call set_option_default(levels//'ksp_type', 'chebyshev')
-    call set_option_default(levels//'ksp_max_it', '4')
+    call set_option_default(levels//'ksp_type', trim(merge('chebyshev', 'gmres    ', symmetric)))
+    call set_option_default(levels//'ksp_max_it', merge('4', '6', symmetric))
     call set_option_default(levels//'pc_type', 'jacobi')
     call set_option_default(coarse//'ksp_type', 'preonly')
     call set_option_default(coarse//'pc_type', trim(merge('cholesky', 'lu      ', symmetric)))
     call set_option_default(coarse//'pc_factor_mat_solver_type', MATSOLVERMUMPS)
+    call set_option_default(coarse//'mat_mumps_icntl_7', '5') ! METIS: PORD crashes where rows are long and many
     if (symmetric) then
       PetscCallA(KSPSetType(linear, KSPCG, ierr))
       PetscCallA(KSPSetNormType(linear, KSP_NORM_NATURAL, ierr))
     else
-      PetscCallA(KSPSetType(linear, KSPGMRES, ierr))
+      PetscCallA(KSPSetType(linear, KSPFGMRES, ierr)) ! its residual is the true one
       PetscCallA(KSPGMRESSetRestart(linear, restart, ierr))
     end if
-    PetscCallA(KSPSetTolerances(linear, tolerance, 0.0_wp, hopeless, longest, ierr))
+    PetscCallA(KSPSetTolerances(linear, merge(tolerance, true_tolerance, symmetric), 0.0_wp, hopeless, longest, ierr))
     PetscCallA(KSPGetPC(linear, grids, ierr))
     PetscCallA(PCSetType(grids, PCMG, ierr))
     PetscCallA(PCSetFromOptions(grids, ierr))
@@ -168,9 +168,10 @@ contains
   end subroutine use_multigrid
 
   !> Whether the iterations converged by their true residual, and whether the coarse level serves on.
-  subroutine judge_iterations(level, linear, matrix, right, solution, work, fresh, solved, ierr)
+  subroutine judge_iterations(level, linear, symmetric, matrix, right, solution, work, fresh, solved, ierr)
     type(coarse_level_type), intent(inout) :: level !! what it has cost; brought up to date
     KSP, intent(in) :: linear          !! after a solve
+    logical, intent(in) :: symmetric   !! the matrix is
     Mat, intent(in) :: matrix          !! of the system that was solved
     Vec, intent(in) :: right, solution !! of the system, scaled
     Vec, intent(in) :: work            !! overwritten
@@ -184,7 +185,7 @@ contains
     PetscCall(KSPGetConvergedReason(linear, reason, ierr))
     PetscCall(KSPGetIterationNumber(linear, iterations, ierr))
     solved = GFB_REASON(reason) > 0
-    if (solved) then
+    if (solved .and. symmetric) then ! GMRES follows the true one itself
       PetscCall(MatMult(matrix, solution, work, ierr))
       PetscCall(VecAXPY(work, -1.0_wp, right, ierr))
       PetscCall(VecNorm(work, NORM_2, left, ierr))
@@ -213,7 +214,7 @@ contains
       call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite, system%low_fill, &
                        system%jacobian)
     end if
-    if (.not. system%slow_change) return
+    if (.not. (system%slow_change .or. solver%iterates)) return
     if (.not. solver%iterates) call use_lagged_factors(linear)
     PetscCallA(SNESSetMaxLinearSolveFailures(snes, huge(1_pint), ierr))
   end subroutine choose_solver
@@ -267,17 +268,17 @@ contains
       solver%fresh = merge(solver%level%outdated, solver%lagged%outdated, solver%iterates)
       PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, solver%fresh), ierr))
     else
-      solver%fresh = .not. solver%keep
+      solver%fresh = solver%iterates .or. .not. solver%keep
       fill = solver%fresh
     end if
     if (solver%fresh) solver%forgotten = .false.
   end subroutine decide_factors
 
   !> Whether a linear system was solved; says why where new factors could not do it.
-  subroutine judge_linear(solver, snes, matrix, right, solution, work, solved, ierr)
+  subroutine judge_linear(solver, snes, system, right, solution, work, solved, ierr)
     type(linear_solver_type), intent(inout) :: solver !! what is known of the factors
     SNES, intent(in) :: snes !! whose linear solver it is
-    Mat, intent(in) :: matrix          !! of the system that was solved, scaled
+    class(nonlinear_system_type), intent(in) :: system !! whose matrix it was, scaled
     Vec, intent(in) :: right, solution !! scaled
     Vec, intent(in) :: work            !! overwritten
     logical, intent(out) :: solved !! its solution serves a step
@@ -286,9 +287,9 @@ contains
 
     PetscCall(SNESGetKSP(snes, linear, ierr))
     if (solver%iterates) then
-      call judge_iterations(solver%level, linear, matrix, right, solution, work, solver%fresh, solved, ierr)
+      call judge_iterations(solver%level, linear, system%symmetric, system%jacobian, right, solution, work, solver%fresh, solved, ierr)
       CHKERRQ(ierr)
-      if (solver%fresh .and. .not. solved) solver%unsolved = "the linear iterations did not converge: linear_solver = 'direct' needs none"
+      if (solver%fresh .and. .not. solved) call leave_iterations(solver, linear, system)
     else
       call judge_factors(solver%lagged, linear, solver%fresh, solved, ierr)
       CHKERRQ(ierr)
@@ -296,6 +297,25 @@ contains
       solved = solved .and. solver%unsolved == ''
     end if
   end subroutine judge_linear
+
+  !> From now on there are factors.
+  subroutine leave_iterations(solver, linear, system)
+    type(linear_solver_type), intent(inout) :: solver !! its multigrid has failed
+    KSP, intent(in) :: linear !! its
+    class(nonlinear_system_type), intent(in) :: system !! the equations
+    character(len=80) :: prefix
+    PetscErrorCode :: ierr
+
+    solver%iterates = .false.
+    solver%left = .true.
+    PetscCallA(KSPGetOptionsPrefix(linear, prefix, ierr))
+    PetscCallA(KSPReset(linear, ierr))
+    PetscCallA(KSPSetNormType(linear, KSP_NORM_DEFAULT, ierr))
+    call use_factors(linear, trim(prefix), system%symmetric, system%dense_rows, system%definite, system%low_fill, &
+                     system%jacobian)
+    if (system%slow_change) call use_lagged_factors(linear)
+    call ask_for_factors(solver)
+  end subroutine leave_iterations
 
   !> Whether the present factors serve the next step too.
   !>

@@ -307,7 +307,7 @@ contains
   !> Sign of the determinant of the system's matrix at its present state: 1, -1, or 0 where there is
   !> none. It changes from state to state only where an eigenvalue goes through zero, as at a fold.
   !>
-  !> Takes a factorization.
+  !> Takes a factorization; where linear systems are iterated there is none, and no sign.
   subroutine find_determinant_sign(newton, sign_of_determinant)
     type(newton_type), intent(inout) :: newton !! the solver
     integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
@@ -315,6 +315,8 @@ contains
     PetscErrorCode :: ierr
     integer :: before
 
+    sign_of_determinant = 0
+    if (newton%linear%iterates) return
     call newton%system%linearise(newton%system%state)
     call forget_secants(newton%secants)
     newton%factorizations = newton%factorizations + 1
@@ -462,6 +464,10 @@ contains
 
     reason = SNES_CONVERGED_ITERATING
     residual = norm/sqrt(newton%unknowns)
+    if (newton%linear%left) then
+      call newton%log%line('the linear iterations did not converge: factors from here on')
+      newton%linear%left = .false.
+    end if
     call show_iteration(newton%log, int(iteration), residual, newton%line%step, newton%line%length, newton%linear%fresh)
     if (iteration == 0) then
       if (newton%secants%used) call judge_start(newton%linear, residual)

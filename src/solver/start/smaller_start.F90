@@ -13,6 +13,7 @@ module gfb_smaller_start
   use gfb_operating_point, only: operating_point_type
   use gfb_model_case, only: foil_shell, meshes_foils, half_width_auto
   use gfb_bearing_case, only: pad_length
+  use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations, stations_follow_crests
   use gfb_ending, only: path_lost
@@ -43,6 +44,7 @@ contains
     type(bearing_plan_type), intent(out) :: small_plan !! its meshes
 
     small = scene
+    if (scene%solver%linear_solver == linear_solver_iterative) small%solver%linear_solver = linear_solver_direct ! cheaper there
     small_plan = plan
     found = .true.
     if (can_halve(scene, plan, target)) then

@@ -24,7 +24,7 @@ module gfb_bearing_plan
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_foil_builder, only: plate_stations, stations_follow_crests
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
-  use gfb_mesh_case, only: linear_solver_out_of_core
+  use gfb_mesh_case, only: linear_solver_out_of_core, linear_solver_iterative
   use gfb_memory_check, only: film_memory, plate_memory, bearing_memory, study_share, &
                               heated_memory, show_memory
   implicit none (type, external)
@@ -179,6 +179,9 @@ contains
     plan%memory = plan%memory*study_share(scene, plan%half)
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
+    else if (scene%solver%linear_solver == linear_solver_iterative) then
+      call log%line('linear solver: GMRES on two levels, as linear_solver asks; smaller '// &
+                    'systems on the way get factors')
     end if
     if (scene%thermal%present) plan%memory = heated_memory(scene, nodes, plan%memory)
     call show_memory(plan%memory, log)

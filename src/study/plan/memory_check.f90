@@ -16,7 +16,8 @@ module gfb_memory_check
   use gfb_nonlinear_system, only: few_unknowns
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell, reduction_guyan
-  use gfb_scene_case, only: analysis_strip, analysis_modes
+  use gfb_scene_case, only: analysis_strip, analysis_modes, analysis_equilibrium, &
+                            analysis_fixed_position
   implicit none (type, external)
   private
   public :: strip_memory, bearing_memory, modes_memory, film_memory, plate_memory, factor_entries, &
@@ -111,11 +112,14 @@ contains
     real(wp) :: an_unknown, a_coupling
 
     an_unknown = an_entry*factor_entries(huge(rows), rows)
-    if (linear_solver == linear_solver_out_of_core) then
-      an_unknown = 3.5e3_wp + in_files*an_unknown
+    a_coupling = 0.0_wp
+    if (linear_solver == linear_solver_iterative) then
+      an_unknown = 3.0e3_wp
+    else if (linear_solver == linear_solver_out_of_core) then
+      an_unknown = 2.6e3_wp + in_files*an_unknown
       a_coupling = 135.0_wp
     else
-      an_unknown = 4.7e3_wp + an_unknown
+      an_unknown = 3.3e3_wp + an_unknown
       a_coupling = 170.0_wp
     end if
     bytes = real((node_unknowns + 1)*nodes, wp)*an_unknown
@@ -191,17 +195,19 @@ contains
   pure function remedies(scene) result(words)
     type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: words
-    logical :: shells
+    logical :: shells, alone !! the foils are; an answer is asked for alone
 
     words = 'a coarser &mesh'
     shells = scene%model%foil == foil_shell .and. scene%general%analysis /= analysis_modes
+    alone = any(scene%general%analysis == &
+                [analysis_strip, analysis_equilibrium, analysis_fixed_position])
     if (shells .and. scene%model%reduction == reduction_guyan) then
       words = words//", reduction = 'none' where the mesh is wide"
     else if (shells) then
       words = words//", reduction = 'guyan' where the mesh is narrow"
     end if
-    if (scene%general%analysis == analysis_strip .and. &
-        scene%model%reduction /= reduction_guyan) then
+    if (shells .and. alone .and. scene%model%reduction /= reduction_guyan .and. &
+        scene%solver%linear_solver /= linear_solver_iterative) then
       words = words//", linear_solver = 'iterative' in &solver"
     end if
     if (scene%solver%linear_solver == linear_solver_direct .and. &
