@@ -42,7 +42,7 @@ module gfb_linear_solver
   end type lagged_factors_type
 
   integer(pint), parameter :: longest = 500        !! iterations of a solve at most
-  integer(pint), parameter :: restart = 20         !! of GMRES
+  integer(pint), parameter :: restart = 10         !! of GMRES
   real(wp), parameter :: tolerance = 1.0e-5_wp     !! of the energy of what is left, relative
   real(wp), parameter :: true_tolerance = 1.0e-2_wp !! of the true residual, relative: Newton's method corrects what is left
   integer, parameter :: slower = 2                 !! growth of the iterations after which a new coarse level pays
@@ -152,7 +152,7 @@ contains
     call set_option_default(coarse//'ksp_type', 'preonly')
     call set_option_default(coarse//'pc_type', trim(merge('cholesky', 'lu      ', symmetric)))
     call set_option_default(coarse//'pc_factor_mat_solver_type', MATSOLVERMUMPS)
-    call set_option_default(coarse//'mat_mumps_icntl_7', '5') ! METIS: PORD crashes where rows are long and many
+    call set_option_default(coarse//'mat_mumps_icntl_7', '2') ! PORD, MUMPS' own choice, crashed at 3.4e5 unknowns
     if (symmetric) then
       PetscCallA(KSPSetType(linear, KSPCG, ierr))
       PetscCallA(KSPSetNormType(linear, KSP_NORM_NATURAL, ierr))
