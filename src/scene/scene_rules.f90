@@ -17,8 +17,7 @@ module gfb_scene_rules
   use gfb_foil_cases, only: missing_of_bumps
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_modes, &
-                            analysis_words, is_bearing
+  use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
   use gfb_study_cases, only: quantities_without_heat, quantities_of_rings, quantities_of_whirl
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
@@ -236,9 +235,12 @@ contains
     words = ''
     if (scene%model%foil /= foil_shell) then
       words = 'a foil that is not of shells'
-    else if (.not. any(scene%general%analysis == &
-                       [analysis_equilibrium, analysis_fixed_position])) then
-      words = "analysis = '"//trim(analysis_words(scene%general%analysis))//"'"
+    else if (scene%dynamics%present) then
+      words = '&dynamics'
+    else if (scene%transient%present .or. scene%periodic%present) then
+      words = 'a motion over time'
+    else if (scene%capacity%question /= 0) then
+      words = 'a search for a limit'
     else if (scene%model%coupling == coupling_partitioned) then
       words = "coupling = 'partitioned' in &model"
     else if (scene%thermal%present) then
