@@ -116,7 +116,7 @@ contains
     if (linear_solver == linear_solver_iterative) then
       an_unknown = 3.0e3_wp
     else if (linear_solver == linear_solver_out_of_core) then
-      an_unknown = 2.6e3_wp + in_files*an_unknown
+      an_unknown = 2.2e3_wp + in_files*an_unknown
       a_coupling = 135.0_wp
     else
       an_unknown = 3.3e3_wp + an_unknown
