@@ -29,7 +29,7 @@ module gfb_scene_rules
                               foil_given, foil_sheet
   implicit none (type, external)
   private
-  public :: check_groups, is_symmetric, heat_mirrors, solves_one_pad
+  public :: what_factors_do, check_groups, is_symmetric, heat_mirrors, solves_one_pad
 
   character(len=*), parameter :: heat = 'thermal' !! the group
   character(len=*), parameter :: moduli = 'modulus_temperatures, modulus_ratios, modulus_slope'
@@ -229,7 +229,7 @@ contains
 
   !> What in a scene of a bearing needs factors of its matrix, or is cheap by them; empty: nothing.
   pure function what_factors_do(scene) result(words)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! with a film
     character(len=:), allocatable :: words
 
     words = ''

@@ -16,8 +16,8 @@ module gfb_memory_check
   use gfb_nonlinear_system, only: few_unknowns
   use gfb_scene, only: scene_type
   use gfb_model_case, only: foil_shell, reduction_guyan
-  use gfb_scene_case, only: analysis_strip, analysis_modes, analysis_equilibrium, &
-                            analysis_fixed_position
+  use gfb_scene_case, only: analysis_modes
+  use gfb_scene_rules, only: what_factors_do
   implicit none (type, external)
   private
   public :: strip_memory, bearing_memory, modes_memory, film_memory, plate_memory, factor_entries, &
@@ -195,18 +195,16 @@ contains
   pure function remedies(scene) result(words)
     type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: words
-    logical :: shells, alone !! the foils are; an answer is asked for alone
+    logical :: shells
 
     words = 'a coarser &mesh'
     shells = scene%model%foil == foil_shell .and. scene%general%analysis /= analysis_modes
-    alone = any(scene%general%analysis == &
-                [analysis_strip, analysis_equilibrium, analysis_fixed_position])
     if (shells .and. scene%model%reduction == reduction_guyan) then
       words = words//", reduction = 'none' where the mesh is wide"
     else if (shells) then
       words = words//", reduction = 'guyan' where the mesh is narrow"
     end if
-    if (shells .and. alone .and. scene%model%reduction /= reduction_guyan .and. &
+    if (shells .and. what_factors_do(scene) == '' .and. scene%model%reduction /= reduction_guyan .and. &
         scene%solver%linear_solver /= linear_solver_iterative) then
       words = words//", linear_solver = 'iterative' in &solver"
     end if
