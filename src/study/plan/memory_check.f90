@@ -204,7 +204,8 @@ contains
     else if (shells) then
       words = words//", reduction = 'guyan' where the mesh is narrow"
     end if
-    if (shells .and. what_factors_do(scene) == '' .and. scene%model%reduction /= reduction_guyan .and. &
+    if (shells .and. what_factors_do(scene) == '' .and. &
+        scene%model%reduction /= reduction_guyan .and. &
         scene%solver%linear_solver /= linear_solver_iterative) then
       words = words//", linear_solver = 'iterative' in &solver"
     end if
