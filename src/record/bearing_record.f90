@@ -70,7 +70,7 @@ contains
     if (present(fold)) call add_result(row%quantity, 'fold', fold)
     if (present(branch)) call add_result(row%quantity, 'branch', branch)
     call add_quantity(row%quantity, answer_quantities( &
-                      analysis_name(scene), converged, bearing_answer(bearing), &
+                      analysis_name(scene), converged, bearing_answer(bearing, stresses=.true.), &
                       bearing%clearance, bearing%force_scale()))
     call add_quantity(row%quantity, row_quantities(record%tilted))
     if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)

@@ -79,6 +79,7 @@ contains
       call add_result(list, 'trailing_edge_lift_edge', answer%trailing_edge_lift(2))
       call add_result(list, 'lifted_length', answer%lifted_length)
     end if
+    call add_stresses(answer, list)
     call add_lines(answer, list)
     if (answer%has_solid_contact) then
       call add_result(list, 'solid_contact_force_x', answer%solid_force(1))
@@ -128,6 +129,7 @@ contains
       if (answer%heat%present) call add_heat(answer%heat, .false., list)
       call add_result(list, 'pads_solved', ring%pads_solved)
     end associate
+    call add_stresses(answer, list)
     call add_lines(answer, list)
     copies = answer%ring%pads/answer%ring%pads_solved
     do i = 1, merge(answer%ring%pads, 0, answer%ring%pads > 1)
@@ -141,6 +143,17 @@ contains
       end if
     end do
   end subroutine add_ring
+
+  !> Adds the largest stresses of the foils.
+  subroutine add_stresses(answer, list)
+    type(bearing_answer_type), intent(in) :: answer
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+
+    if (.not. allocated(answer%foil_stress)) return
+    call add_result(list, 'maximum_top_foil_stress', answer%foil_stress(1))
+    if (size(answer%foil_stress) == 1) return ! a plate on springs
+    call add_result(list, 'maximum_bump_foil_stress', answer%foil_stress(2))
+  end subroutine add_stresses
 
   !> Adds what the crests carry.
   subroutine add_lines(answer, list)
@@ -322,6 +335,7 @@ contains
     else
       call show_shaft(log, answer, clearance)
     end if
+    if (allocated(answer%foil_stress)) call show_stresses(log, answer%foil_stress)
     call log%line('largest Peclet   '//text(answer%maximum_peclet, 3))
     call log%line('cost             '//text(cost%unknowns)//' unknowns, '// &
                   text(cost%newton_iterations)//' iterations, '//text(cost%factorizations)// &
@@ -329,6 +343,17 @@ contains
                   text(cost%peak_memory*1.0e-6_wp, 3)//' MB, '// &
                   text(ranks)//' rank(s), BLAS '//blas)
   end subroutine show_closing_block
+
+  !> The largest stresses of the foils.
+  subroutine show_stresses(log, stress)
+    type(run_log_type), intent(in) :: log
+    real(wp), intent(in) :: stress(:) !! of top foil and bumps, where these have a mesh [Pa]
+    character(len=:), allocatable :: words
+
+    words = 'top foil '//engineering_text(stress(1), 'MPa', 1.0e-6_wp)
+    if (size(stress) > 1) words = words//', bumps '//engineering_text(stress(2), 'MPa', 1.0e-6_wp)
+    call log%line('largest stress   '//words//' (von Mises)')
+  end subroutine show_stresses
 
   !> What a thrust bearing bears, and on which film.
   subroutine show_bearing_of_runner(log, answer)

@@ -42,7 +42,7 @@ module gfb_restart_file
     procedure :: is_due, is_due_after, may_be_written, tell
   end type restart_type
 
-  integer, parameter :: format = 4 !! of the file; the first one had none to say
+  integer, parameter :: format = 5 !! of the file; the first one had none to say
   real(wp), parameter :: between_files = 60.0_wp !! where no number of steps is given [s]
 
 contains

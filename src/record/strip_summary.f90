@@ -244,6 +244,7 @@ contains
     end if
     call add_result(list, 'maximum_force', full%force)
     if (largest > 0.0_wp) call add_result(list, 'loading_stiffness', full%force/largest)
+    if (full%stress > 0.0_wp) call add_result(list, 'maximum_bump_foil_stress', full%stress)
     if (full%round_off > told_round_off) then
       call add_result(list, 'deflection_round_off', full%round_off)
     end if

@@ -11,14 +11,15 @@ module gfb_foil_rules
   use gfb_model_case, only: foil_rigid, needs_meshes, coupling_partitioned, &
                             foil_elastic_foundation, foil_shell, foil_plate, &
                             foundation_pressure_local, &
-                            meshes_foils, foil_word, foil_beam, half_width_yes
+                            meshes_foils, meshes_top_foil, foil_word, foil_beam, half_width_yes
   use gfb_motion_cases, only: follow_unbalance, rotor_case_type
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
   use gfb_bearing_case, only: bearing_case_type, pad_length, leading_edge_periodic
   use gfb_fixed_lines, only: fixed_line_corner
-  use gfb_study_cases, only: part_strip, part_top_foil, part_flat
+  use gfb_study_cases, only: part_strip, part_top_foil, part_flat, quantity_words, asked_name, &
+                             top_foil_stress, bump_foil_stress
   use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
   use gfb_strip_load_case, only: load_plates, support_held
   implicit none (type, external)
@@ -241,7 +242,36 @@ contains
     call check_steepness(keys, scene)
     call check_own_strips(keys, scene)
     call check_assembly(keys, scene)
+    call check_stresses(keys, scene)
   end subroutine check_foils
+
+  !> Stresses are those of foils with meshes.
+  subroutine check_stresses(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: name
+
+    associate (derived => scene%sensitivity%quantity, foil => scene%model%foil)
+      if (.not. is_bearing(scene%general%analysis) .or. foil == 0) return
+      call refuse('sensitivity', derived(top_foil_stress), derived(bump_foil_stress))
+      if (scene%accuracy%quantity == 0) return
+      name = asked_name(scene%accuracy)
+      call refuse('accuracy', name == trim(quantity_words(top_foil_stress)), &
+                  name == trim(quantity_words(bump_foil_stress)))
+    end associate
+
+  contains
+
+    !> Complains of what foils without such a mesh do not have.
+    subroutine refuse(group, of_top, of_bumps)
+      character(len=*), intent(in) :: group
+      logical, intent(in) :: of_top, of_bumps !! stress is asked for
+      call keys%rule(group, 'quantity', of_top .and. .not. meshes_top_foil(scene%model%foil), &
+                     "names a stress of foils: needs foil = 'shell', 'beam' or 'plate' in &model")
+      call keys%rule(group, 'quantity', of_bumps .and. .not. meshes_foils(scene%model%foil), &
+                     "names a stress of bumps: needs foil = 'shell' or 'beam' in &model")
+    end subroutine refuse
+  end subroutine check_stresses
 
   !> Whether the scene is a bearing whose foils are known, and have no meshes of their own.
   pure logical function lacks_bumps(scene) result(lacks)

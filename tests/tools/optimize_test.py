@@ -183,6 +183,24 @@ class Optimize(unittest.TestCase):
         self.assertGreater(largest.results[0].after, 1.2)
 
     @unittest.skipUnless(HAS_SCIPY, NO_SCIPY)
+    def test_stress_as_a_bound(self):
+        """The thickest film with less stress in thinner bumps: the bound is reached, and a plain run has the same stress."""
+        sheet = {"thickness": 1.02e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29}
+        case = gfb.Case(RIGID | {
+            "bearing": {"radius": 0.0095, "length": 0.019, "clearance": 2.0e-5}, "operation": {"speed_rpm": 40000.0, "load": (-14.0, 2.0)},
+            "top_foil": sheet, "bump_foil": {**sheet, "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "bumps": 13},
+            "contact": {"friction_top": 0.1, "friction_sleeve": 0.1}, "model": {"foil": "beam"},
+            "mesh": {"circumferential_elements": 52, "axial_elements": 4, "arc_elements": 4, "flat_elements": 2}})
+        name = "maximum_bump_foil_stress"
+        bound = 0.9*gfb.run(case, self.folder, "before")[name]
+        found = self.optimize(case, maximize="minimum_gap", subject_to={name: (None, bound)}, finer={}, most_runs=25,
+                              vary={"bump_foil%thickness": (0.06e-3, 0.14e-3), "top_foil%thickness": (0.08e-3, 0.14e-3)})
+        self.assertIn(name, found.active)
+        self.assertTrue(found.within)
+        self.assertAlmostEqual(gfb.run(found.case, self.folder, "plain")[name]/bound, 1.0, delta=2.0e-3)
+        self.assertIn("MPa", found.table())
+
+    @unittest.skipUnless(HAS_SCIPY, NO_SCIPY)
     def test_elements_of_a_list(self):
         """Each by itself, (:), and two that share a value, which is then the mean of their targets."""
         program = self.stub((3.0, 5.0, 4.0, 1.0))

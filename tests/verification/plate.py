@@ -16,6 +16,7 @@ TOP = {"thickness": 1.5e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29}
 PLATE = {"foil": "plate", "crest_stiffness": 3.5e7}
 BUMPS = {"bumps": 26, "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "thickness": 1.02e-4, "youngs_modulus": 2.14e11,
          "poissons_ratio": 0.29}
+PLATE_QUANTITIES = ("axial_gap", "minimum_gap", "maximum_top_foil_stress")  # that are derived
 
 
 def plate(operation, analysis="fixed_position", model=None, **more):
@@ -105,12 +106,12 @@ def check_derivatives(checks, folder):
     named = {"model%crest_stiffness": ("model", "crest_stiffness", 3.5e7), "top_foil%thickness": ("top_foil", "thickness", 1.5e-4)}
     load = {"axial_load": 150.0}
     derived = solve(folder, "derived", plate(load, "equilibrium", sensitivity={
-        "quantity": ("axial_gap", "minimum_gap"), "parameters": tuple(named)}, **TIGHT))
+        "quantity": PLATE_QUANTITIES, "parameters": tuple(named)}, **TIGHT))
     for key, (group, name, value) in named.items():
         step = 1.0e-3*value
         ahead, behind = (solve(folder, "moved", plate(load, "equilibrium", {name: value + sign*step} if group == "model" else {}, **TIGHT, **(
             {"top_foil": TOP | {name: value + sign*step}} if group == "top_foil" else {}))) for sign in (1.0, -1.0))
-        for quantity in ("axial_gap", "minimum_gap"):
+        for quantity in PLATE_QUANTITIES:
             rate = (ahead[quantity] - behind[quantity])/(2.0*step)
             checks.below(f"{quantity} by {key} against differences", derived[f"d_{quantity}_d_{group}_{name}"]/rate - 1.0, 1.0e-4)
 

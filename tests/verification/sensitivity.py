@@ -14,6 +14,7 @@ NAMES = ("eccentricity_x", "eccentricity_y", "attitude_angle", "friction_torque"
          "maximum_pressure", "minimum_pressure")
 FIXED_NAMES = ("attitude_angle", "force_x", "force_y", "torque_x", "torque_y", "friction_torque", "power_loss", "minimum_gap",
                "maximum_pressure", "minimum_pressure")
+STRESSES = ("maximum_top_foil_stress", "maximum_bump_foil_stress")
 HEAT_NAMES = ("film_temperature", "maximum_film_temperature", "top_foil_temperature", "maximum_top_foil_temperature",
               "shaft_temperature", "sleeve_temperature", "inlet_temperature", "cooling_outlet_temperature", "heat_to_shaft",
               "heat_to_top_foil", "heat_through_bumps", "heat_to_channel", "heat_by_gas", "running_clearance")
@@ -141,7 +142,7 @@ def check_heat(checks, folder):
     softening = {**heat, "shaft_conductance": 0.3, "modulus_slope": -3.0e-3}
     check_differences(checks, folder, "shells with heat, which soften", with_keys(foils("shell", 0.1), gas=gas, thermal=softening), {
         "thermal%shaft_conductance": 1.0e-4, "thermal%modulus_slope": 1.0e-4, "bump_foil%youngs_modulus": 3.0e-4,
-        "bump_foil%thickness": 1.0e-4, "gas%ambient_pressure": 3.0e-5}, NAMES + plain)
+        "bump_foil%thickness": 1.0e-4, "gas%ambient_pressure": 3.0e-5}, NAMES + STRESSES + plain)
 
 
 def check_foils(checks, folder):
@@ -149,20 +150,21 @@ def check_foils(checks, folder):
     shells = foils("shell", 0.1)
     check_differences(checks, folder, "shells with friction", shells,
                       {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "bump_foil%half_length": 2.0e-5,
-                       "top_foil%thickness": 1.0e-4, "contact%friction_top": 2.0e-4, "bearing%clearance": 5.0e-5, "bump_foil%pitch": 8.0e-6})
+                       "top_foil%thickness": 1.0e-4, "contact%friction_top": 2.0e-4, "bearing%clearance": 5.0e-5, "bump_foil%pitch": 1.6e-5},
+                      NAMES + STRESSES)
     keys = {"gas%viscosity": 1, "gas%ambient_pressure": 1, "operation%load": 1, "top_foil%youngs_modulus": 1,
             "bump_foil%youngs_modulus": 1}
-    one, two = (derived(folder, shells, tuple(keys), ranks=ranks) for ranks in (1, 2))
-    for name, degree in (("minimum_gap", 0), ("friction_torque", 1), ("maximum_pressure", 1)):
+    one, two = (derived(folder, shells, tuple(keys), NAMES + STRESSES, ranks) for ranks in (1, 2))
+    for name, degree in (("minimum_gap", 0), ("friction_torque", 1), ("maximum_pressure", 1), *((name, 1) for name in STRESSES)):
         check_sum(checks, "shells with friction, sum over pressures", one, shells, name, keys, degree)
         for key in keys:
             slope = slope_name(name, key)
             checks.below(f"shells with friction, 2 ranks: {slope}", two[slope]/one[slope] - 1.0, LIMIT)
     check_differences(checks, folder, "shells without friction", foils("shell", 0.0),
-                      {"bump_foil%half_length": 2.0e-5, "operation%load": 5.0e-5})
+                      {"bump_foil%half_length": 2.0e-5, "operation%load": 5.0e-5}, NAMES + STRESSES)
     check_differences(checks, folder, "beams with friction at their faces",
                       with_keys(foils("beam", 0.1), contact={"contact_surface": "face"}),
-                      {"bump_foil%thickness": 1.0e-4, "top_foil%thickness": 1.0e-4, "contact%friction_sleeve": 5.0e-4})
+                      {"bump_foil%thickness": 1.0e-4, "top_foil%thickness": 1.0e-4, "contact%friction_sleeve": 5.0e-4}, NAMES + STRESSES)
     check_differences(checks, folder, "shells with friction at their faces",
                       with_keys(shells, contact={"contact_surface": "face"}),
                       {"bump_foil%thickness": 1.0e-4, "top_foil%thickness": 1.0e-4})

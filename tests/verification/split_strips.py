@@ -88,6 +88,7 @@ def check_bearings(checks, folder):
     one = bearing(folder, "beam_split", {**foil, **split}, "beam", contact=law)
     soft = {**foil, "youngs_modulus": part*FOIL["youngs_modulus"]}
     other = bearing(folder, "beam_soft", soft, "beam", contact={**law, "normal_stiffness": part*2.0e11})
+    other.summary["maximum_bump_foil_stress"] /= part  # its forces are spread over the whole width
     checks.below("beams: a split strip is one of the width without the cut",
                  summary_difference(one, other, natural_sizes(BEARING))[0], 1.0e-6)
     shells = {}

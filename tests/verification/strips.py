@@ -2,6 +2,7 @@
 """Strips and modes of shells: independent numbers, full against condensed, half width, ranks, files."""
 
 import json
+import math
 import pathlib
 import re
 import sys
@@ -111,6 +112,24 @@ def check_convergence(checks, folder, strip):
     checks.within("the paper's mesh is stiff by [%]", 100.0*(1.0 - inner[0]/finest), 1.2, 2.2)
 
 
+def check_stress(checks, folder):
+    """The crest of one bump that glides on both feet: Winkler and Bach's bar bent by half the load times half its length."""
+    thickness, half_length, height = FOIL["thickness"], FOIL["half_length"], FOIL["height"]
+    radius = (half_length**2 + height**2)/(2.0*height)
+    inner, outer = radius - 0.5*thickness, radius + 0.5*thickness
+    neutral = thickness/math.log(outer/inner)
+    moment = 0.5*0.2e6*FOIL["pitch"]*half_length  # a metre of width
+    true = moment*(neutral - inner)/(thickness*(radius - neutral)*inner)
+    errors = []
+    for elements in (6, 12):
+        answer = solve(folder, "stress", bump_foil={"bumps": 1, "fixed_edge": "none", "poissons_ratio": 0.0},
+                       contact={"friction_top": 0.0, "friction_sleeve": 0.0}, strip_load={"pressure": 0.2e6},
+                       mesh={"arc_elements": elements, "flat_elements": 2, "axial_elements": 2})
+        errors.append(answer["maximum_bump_foil_stress"]/true - 1.0)
+    checks.below("largest stress of a bump against Winkler and Bach", errors[1], 2.0e-3)
+    checks.within("order of that", math.log2(abs(errors[0]/errors[1])), 1.8, 4.5)
+
+
 def check_modes(checks, folder):
     """Fixed-interface frequencies, rigid modes, Craig-Bampton."""
     wanted = REFERENCE["modes_kHz"]["case1_fixed_interface"]
@@ -198,6 +217,7 @@ def main():
         strip = check_reference(checks, folder)
         check_same(checks, folder, strip)
         check_convergence(checks, folder, strip)
+        check_stress(checks, folder)
         check_modes(checks, folder)
         check_numbers(checks, folder)
         check_reader(checks, folder, strip)

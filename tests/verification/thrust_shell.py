@@ -18,6 +18,7 @@ RUBS = {"friction_top": 0.1, "friction_sleeve": 0.1}
 SMOOTH = {"friction_top": 0.0, "friction_sleeve": 0.0}
 MESH = {"circumferential_elements": 12, "radial_elements": 4, "arc_elements": 8, "flat_elements": 2}
 LOAD = {"axial_load": 100.0}
+DERIVED = ("axial_gap", "maximum_top_foil_stress", "maximum_bump_foil_stress")
 
 
 def shells(operation, analysis="equilibrium", model=None, contact=None, bumps=None, **more):
@@ -102,14 +103,15 @@ def check_stiffness(checks, folder):
 def check_derivatives(checks, folder):
     """Derivatives by keys of both foils against differences of answers, without friction, whose slip remembers."""
     named = {"bump_foil%thickness": 1.0e-4, "bump_foil%half_length": 1.5e-3, "bump_foil%height": 5.0e-4, "top_foil%thickness": 1.5e-4}
-    derived = solve(folder, "derived", shells(LOAD, contact=SMOOTH, sensitivity={"quantity": "axial_gap", "parameters": tuple(named)}))
+    derived = solve(folder, "derived", shells(LOAD, contact=SMOOTH, sensitivity={"quantity": DERIVED, "parameters": tuple(named)}))
     for key, value in named.items():
         group, name = key.split("%")
         step = 1.0e-3*value
         ahead, behind = (solve(folder, "moved", shells(LOAD, contact=SMOOTH, **{group: (TOP if group == "top_foil" else BUMPS)
                                                                                 | {name: value + sign*step}})) for sign in (1.0, -1.0))
-        rate = (ahead["axial_gap"] - behind["axial_gap"])/(2.0*step)
-        checks.below(f"axial_gap by {key} against differences", derived[f"d_axial_gap_d_{group}_{name}"]/rate - 1.0, 1.0e-4)
+        for quantity in DERIVED:
+            rate = (ahead[quantity] - behind[quantity])/(2.0*step)
+            checks.below(f"{quantity} by {key} against differences", derived[f"d_{quantity}_d_{group}_{name}"]/rate - 1.0, 1.0e-4)
 
 
 def check_strips(checks, folder):

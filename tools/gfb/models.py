@@ -28,7 +28,7 @@ ENDS = {DONE: "", NOT_CONVERGED: "no answer", WRONG_INPUT: "not possible"}
 # What a model has no use for says so: a key with its value, or a group; strips side by side go with all that is theirs.
 USELESS = re.compile(r"&(\w+): (?:(\w+)(?:\([^)]*\))? = .*?: |the group )(needs (?:foil|strips) = .*)")
 SHOWN = ("eccentricity_x", "eccentricity_y", "attitude_angle", "axial_gap", "minimum_gap", "maximum_pressure", "maximum_deflection",
-         "torque_x", "torque_y", "friction_torque", "power_loss", "stiffness_xx", "stiffness_yy", "stiffness_zz", "critical_mass",
+         "maximum_top_foil_stress", "maximum_bump_foil_stress", "torque_x", "torque_y", "friction_torque", "power_loss", "stiffness_xx", "stiffness_yy", "stiffness_zz", "critical_mass",
          "load_capacity", "lift_off_speed_rpm", "misalignment_allowance", "axial_frequency", "unknowns", "factorizations", "wall_time")
 DEGREES = 180.0/math.pi
 
@@ -49,7 +49,7 @@ class Models:
         for name in names:
             if name not in self.data or not (abs(self.data[name].fillna(0.0)) > 0.0).any():
                 continue
-            unit, scale = readable_unit(self.data[name].units)
+            unit, scale = readable_unit(self.data[name].units, name)
             rows.append([name, unit, *(readable(float(value)*scale) for value in self.data[name].values)])
         rows.append(["", "", *(ENDS[int(status)] for status in self.data.status.values)])
         lines = [f"- {model}: left out {'; '.join(self.left_out[model])}\n" for model in models if self.left_out[model]]

@@ -121,7 +121,7 @@ def cells(rows: Sequence[Row]) -> list[list[str]]:
     """Rows of a table, in units that people read."""
     table = []
     for row in rows:
-        unit, scale = readable_unit(row.unit)
+        unit, scale = readable_unit(row.unit, row.name)
         numbers = (row.before, row.after, row.low, row.high)
         table.append([row.name, unit, *("" if number is None else f"{number*scale:.5g}" for number in numbers), row.at])
     return table
@@ -351,7 +351,7 @@ class Runner:
 
     def report(self, run: Run) -> None:
         """A line of progress."""
-        results = ", ".join(f"{name} {' '.join(filter(None, shown(value, run.units.get(name, ''))))}" for name, value in run.values.items())
+        results = ", ".join(f"{name} {' '.join(filter(None, shown(value, run.units.get(name, ''), name)))}" for name, value in run.values.items())
         best = self.goal and self.goal.best(self.runs)
         self.tell(f"run {len(self.runs)}: {results or run.words.partition(chr(10))[0]}" + (" (best)" if run is best else ""))
 
@@ -365,9 +365,9 @@ class Runner:
                 writer.writerow([number + 1, run.stem.name, *values, *(run.values.get(name, "") for name in goal.start.values)])
 
 
-def shown(value: float, unit: str) -> tuple[str, str]:
-    """A number in a unit that people read."""
-    number, unit = readable(value, unit)
+def shown(value: float, unit: str, name: str) -> tuple[str, str]:
+    """A result in a unit that people read."""
+    number, unit = readable(value, unit, name)
     return f"{number:.5g}", unit
 
 

@@ -9,14 +9,14 @@ READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad"
 TYPED = {"m": ("mm", 1.0e3), "rad": ("deg", 180.0/math.pi), "Pa": ("GPa", 1.0e-9)}
 
 
-def readable_unit(unit):
-    """The unit in which people read what is in SI, and what to multiply with."""
-    return READABLE.get(unit, (unit, 1.0))
+def readable_unit(unit, of=""):
+    """The unit in which people read what is in SI, and what to multiply with; of: a result's name, for stresses are no pressures."""
+    return ("MPa", 1.0e-6) if unit == "Pa" and of.endswith("_stress") else READABLE.get(unit, (unit, 1.0))
 
 
-def readable(values, unit):
+def readable(values, unit, of=""):
     """Numbers in SI in the unit that people read, and that unit."""
-    name, factor = readable_unit(unit)
+    name, factor = readable_unit(unit, of)
     return values*factor, name
 
 

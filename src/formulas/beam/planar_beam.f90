@@ -18,7 +18,7 @@ module gfb_planar_beam
   implicit none (type, external)
   private
   public :: plane_strain_section, linear_beam_stiffness, bent_beam_stiffness, beam_mass, &
-            beam_resultants
+            beam_resultants, beam_end_moments
 
   integer, parameter, public :: beam_unknowns = 3 !! at a node: along x, along v, turn
 
@@ -115,6 +115,18 @@ contains
     force(1) = section%membrane*dot_product(change(:2), ends(:, 2) - ends(:, 1))/length**2
     force(2) = -section%bending*change(3)/length
   end function beam_resultants
+
+  !> Bending moments at both ends of an element, per metre of width [N], positive as in
+  !> `beam_resultants`: what balances its forces. In a linear element they differ from those in its
+  !> middle by the shear force times half the length, and are of second order as these are.
+  pure function beam_end_moments(stiffness, displacement) result(moment)
+    real(wp), intent(in) :: stiffness(2*beam_unknowns, 2*beam_unknowns) !! of the element [SI]
+    real(wp), intent(in) :: displacement(beam_unknowns, 2) !! of the ends [m], [rad]
+    real(wp) :: moment(2), force(2*beam_unknowns)
+
+    force = matmul(stiffness, [displacement])
+    moment = [force(beam_unknowns), -force(2*beam_unknowns)]
+  end function beam_end_moments
 
   !> Products of a vector's components.
   pure function square(vector) result(products)

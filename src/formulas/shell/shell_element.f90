@@ -21,14 +21,14 @@ module gfb_shell_element
   use gfb_kinds, only: wp
   use gfb_shell_geometry, only: shell_section_type, shell_lamina_type, shell_geometry_type, &
                                 shell_nodes, shell_unknowns, node_unknowns, shell_abscissa, &
-                                check_shell, bilinear, shell_base, shell_lamina
+                                check_shell, bilinear, shell_base, shell_lamina, node_xi, node_eta
   use gfb_shell_turn, only: shell_turn_type, shell_turn, shell_motion, shell_generalized, &
                             take_directions
   use gfb_errors, only: error_type
   implicit none (type, external)
   private
   public :: pressure_weights, pressure_moments, shell_stiffness, shell_internal_force, &
-            shell_stress, von_mises
+            shell_stress, shell_corner_stress, von_mises, von_mises_rates
 
   real(wp), parameter :: shear_factor = 5.0_wp/6.0_wp !! of the transverse shear [1]
 
@@ -510,9 +510,8 @@ contains
     type(shell_stress_type), intent(out) :: stress !! at the Gauss points
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
 
-    real(wp), dimension(3, shell_nodes) :: translation, change, motion
-    real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
-    real(wp) :: tied(shear_points), weight(shear_points), base(3, 3), tensor(3, 3, -1:1)
+    real(wp), dimension(3, shell_nodes) :: translation, change
+    real(wp) :: tied(shear_points), tensor(3, 3, -1:1)
     type(shell_lamina_type) :: lamina
     integer :: face
 
@@ -520,20 +519,90 @@ contains
     if (allocated(error)) return
     call shell_motion(shell_turn(geometry, section%thickness), displacement, translation, change)
     tied = shear_strains(geometry, section%thickness, translation, change)
-    weight = shear_weights(xi, eta)
-    call bilinear(xi, eta, shape, by_xi, by_eta)
     do face = lower_face, upper_face
-      base = shell_base(geometry, section%thickness, shape, by_xi, by_eta, real(face, wp))
-      lamina = shell_lamina(base)
-      motion = translation + face*change
-      tensor(:, :, face) = lamina_stress(section, &
-        lamina_strain(base, lamina, matmul(motion, by_xi), matmul(motion, by_eta), tied, weight))
+      call find_tensor(geometry, section, translation, change, tied, xi, eta, face, &
+                       tensor(:, :, face), lamina)
       if (face == 0) stress%frame = lamina%frame
     end do
     call resultants(section%thickness, tensor, stress)
   end subroutine shell_stress
 
-  !> All but the frame from the stress tensors of lower face, mid-surface and upper face.
+  !> Stress tensor in the lamina frame at a point of a face or of the mid-surface [Pa].
+  pure subroutine find_tensor(geometry, section, translation, change, tied, xi, eta, face, &
+                              tensor, lamina)
+    type(shell_geometry_type), intent(in) :: geometry
+    type(shell_section_type), intent(in) :: section
+    real(wp), intent(in) :: translation(3, shell_nodes) !! of the nodes [m]
+    real(wp), intent(in) :: change(3, shell_nodes)      !! of half the thickness vectors [m]
+    real(wp), intent(in) :: tied(shear_points)          !! of `shear_strains` [m2]
+    real(wp), intent(in) :: xi, eta                     !! in [-1, 1]
+    integer, intent(in) :: face                         !! -1, 0 or 1
+    real(wp), intent(out) :: tensor(3, 3)
+    type(shell_lamina_type), intent(out) :: lamina      !! there
+    real(wp) :: base(3, 3), motion(3, shell_nodes)
+    real(wp), dimension(shell_nodes) :: shape, by_xi, by_eta
+
+    call bilinear(xi, eta, shape, by_xi, by_eta)
+    base = shell_base(geometry, section%thickness, shape, by_xi, by_eta, real(face, wp))
+    lamina = shell_lamina(base)
+    motion = translation + face*change
+    tensor = lamina_stress(section, &
+      lamina_strain(base, lamina, matmul(motion, by_xi), matmul(motion, by_eta), tied, &
+                    shear_weights(xi, eta)))
+  end subroutine find_tensor
+
+  !> Stresses at the corners: membrane ones in the mean, bending ones as equilibrium has them.
+  !>
+  !> A bilinear element has no change of the curvature along a line in that line's direction. Where
+  !> a moment is largest, over a crest or at a weld, the middle of an element misses it by half an
+  !> element times its slope. What is missing follows from the shear forces Q of the element,
+  !>
+  !> $$ R_i = Q_i - M_{ij,j}, \qquad \Delta M_{11} = R_1 x_1 + \nu R_2 x_2, \qquad
+  !>    \Delta M_{22} = R_2 x_2 + \nu R_1 x_1 $$
+  !>
+  !> with x from the middle on, so that stresses are of second order; exact on rectangles.
+  pure function shell_corner_stress(geometry, section, displacement) result(value)
+    type(shell_geometry_type), intent(in) :: geometry !! the element, as `check_shell` demands
+    type(shell_section_type), intent(in) :: section !! thickness and material of the shell
+    real(wp), intent(in) :: displacement(shell_unknowns) !! u, v, w [m], alpha, beta [rad] a node
+    real(wp) :: value(6, shell_nodes) !! (membrane and bending 11, 22, 12, corners) [Pa]
+    real(wp), dimension(3, shell_nodes) :: translation, change
+    real(wp) :: plane(3, lower_face:upper_face), tied(shear_points), tensor(3, 3)
+    type(shell_lamina_type) :: lamina
+    real(wp) :: moment(3, shell_nodes), membrane(3), shear(2), length(2), by(3, 2), rest(2)
+    integer :: i, face
+
+    call shell_motion(shell_turn(geometry, section%thickness), displacement, translation, change)
+    tied = shear_strains(geometry, section%thickness, translation, change)
+    membrane = 0.0_wp
+    do i = 1, shell_nodes
+      do face = lower_face, upper_face, upper_face - lower_face
+        call find_tensor(geometry, section, translation, change, tied, node_xi(i), node_eta(i), &
+                         face, tensor, lamina)
+        plane(:, face) = [tensor(1, 1), tensor(2, 2), tensor(1, 2)]
+      end do
+      moment(:, i) = section%thickness**2/12.0_wp*(plane(:, upper_face) - plane(:, lower_face))
+      membrane = membrane + 0.5_wp*(plane(:, upper_face) + plane(:, lower_face))/shell_nodes
+    end do
+    call find_tensor(geometry, section, translation, change, tied, 0.0_wp, 0.0_wp, 0, tensor, &
+                     lamina)
+    shear = section%thickness*tensor(1:2, 3)
+    associate (x => geometry%position, nodes => real(shell_nodes, wp))
+      ! from side to side
+      length = [norm2(matmul(x, node_xi)), norm2(matmul(x, node_eta))]*2.0_wp/nodes
+      by(:, 1) = 2.0_wp*matmul(moment, node_xi)/(nodes*length(1))
+      by(:, 2) = 2.0_wp*matmul(moment, node_eta)/(nodes*length(2))
+    end associate
+    rest = 0.5_wp*length*(shear - [by(1, 1) + by(3, 2), by(3, 1) + by(2, 2)])
+    do i = 1, shell_nodes
+      associate (change_of => [node_xi(i), node_eta(i)]*rest)
+        moment(:2, i) = moment(:2, i) + change_of + section%poissons_ratio*change_of(2:1:-1)
+      end associate
+      value(:, i) = [membrane, 6.0_wp*moment(:, i)/section%thickness**2]
+    end do
+  end function shell_corner_stress
+
+  !> Stresses and resultants from the stress tensors of lower face, mid-surface and upper face.
   pure subroutine resultants(thickness, tensor, stress)
     real(wp), intent(in) :: thickness           !! h [m]
     real(wp), intent(in) :: tensor(3, 3, -1:1)  !! in the lamina frames [Pa]
@@ -564,4 +633,19 @@ contains
     real(wp) :: equivalent           !! [Pa]
     equivalent = sqrt(plane(1)**2 - plane(1)*plane(2) + plane(2)**2 + 3.0_wp*plane(3)**2)
   end function von_mises
+
+  !> Derivatives of `von_mises` by the components; 0 where there is no stress.
+  !>
+  !> $$ \sigma_v d\sigma_v = (\sigma_{11} - \tfrac{1}{2} \sigma_{22}) d\sigma_{11}
+  !>    + (\sigma_{22} - \tfrac{1}{2} \sigma_{11}) d\sigma_{22} + 3 \sigma_{12} d\sigma_{12} $$
+  pure function von_mises_rates(plane) result(rate)
+    real(wp), intent(in) :: plane(3) !! components 11, 22, 12 [Pa]
+    real(wp) :: rate(3)              !! [1]
+    real(wp) :: equivalent
+
+    rate = 0.0_wp
+    equivalent = von_mises(plane)
+    if (equivalent > 0.0_wp) rate = [plane(1) - 0.5_wp*plane(2), plane(2) - 0.5_wp*plane(1), &
+                                     3.0_wp*plane(3)]/equivalent
+  end function von_mises_rates
 end module gfb_shell_element

@@ -12,6 +12,7 @@ module gfb_bearing_answer
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   use gfb_heat_answer, only: heat_answer_type, heat_answer
+  use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress
   use gfb_bearing_system, only: bearing_system_type, heat_flows
   implicit none (type, external)
   private
@@ -64,6 +65,8 @@ module gfb_bearing_answer
     type(ring_answer_type) :: ring
     !> (5, pads) share of each of several pads [N], [N m]
     real(wp), allocatable :: pad_force(:, :)
+    !> largest von Mises stress of top foil and bumps, where it was asked for and is known [Pa]
+    real(wp), allocatable :: foil_stress(:)
     !> of springs under a plate, pad 1, one a crest from its leading edge on [N]
     real(wp), allocatable :: line_force(:)
     real(wp), allocatable :: pad_gap(:)            !! smallest gap of each of them [m]
@@ -73,11 +76,12 @@ module gfb_bearing_answer
 contains
 
   !> Reads the answer off the present state.
-  function bearing_answer(bearing, brief) result(answer)
+  function bearing_answer(bearing, brief, stresses) result(answer)
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     !> without the force of no suction, gaps at midplane and edge, cell Peclet numbers and lifts;
     !> default: with all of them
     logical, intent(in), optional :: brief
+    logical, intent(in), optional :: stresses !! those of the foils, too; default: without
     type(bearing_answer_type) :: answer
 
     real(wp), dimension(bearing%local_size()) :: unknown, value
@@ -112,6 +116,11 @@ contains
       answer%pad_gap = -most(1, :)
     end if
     if (whole .and. bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
+    if (present(stresses)) then
+      if (stresses .and. bearing%pad(1)%foil%is_meshed()) then
+        call read_stresses(bearing, unknown, answer)
+      end if
+    end if
     if (bearing%pad(1)%contact%present) call read_solid_contact(bearing, unknown, answer)
     answer%place = bearing%shaft_place()
     answer%force = total(1:film_forces) + answer%solid_force
@@ -336,6 +345,26 @@ contains
       if (pad%whole%half) answer%line_force = 2.0_wp*answer%line_force
     end associate
   end subroutine read_lifts
+
+  !> The largest stress of each surface of the foils.
+  subroutine read_stresses(bearing, unknown, answer)
+    type(bearing_system_type), intent(in) :: bearing !! whose foils have meshes
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(bearing_answer_type), intent(inout) :: answer
+    type(stress_place_type) :: place(surfaces)
+    real(wp) :: largest(surfaces), most(surfaces)
+    integer :: i
+
+    most = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call find_largest_stress(pad%foil, unknown(pad%first + 1:pad%last), place, largest)
+        most = max(most, largest*bearing%modulus(i, unknown))
+      end associate
+    end do
+    answer%foil_stress = largest_over_ranks(most)
+    answer%foil_stress = pack(answer%foil_stress, place%surface > 0)
+  end subroutine read_stresses
 
   !> Adds this rank's lifts of the edges of a pad's top foil, and how many nodes they are of.
   pure subroutine add_lifts(pad, lift, sums)

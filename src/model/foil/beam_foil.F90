@@ -28,7 +28,7 @@ module gfb_beam_foil
                              bent_beam_stiffness
   use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_surface, only: foil_surface_type
-  use gfb_foil_stress, only: beam_stresses
+  use gfb_foil_stress, only: beam_stresses, beam_end_stresses
   use gfb_foil_structure, only: element_section
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
@@ -60,7 +60,9 @@ module gfb_beam_foil
     procedure :: surfaces => beam_surfaces
     procedure :: own_unknown => beam_own_unknown
     procedure :: split_displacements => beam_displacements
+    procedure :: gather_forces => beam_forces
     procedure :: stresses => stresses_of_beams
+    procedure :: corner_stresses => corner_stresses_of_beams
     procedure :: find_work => work_of_beams
     procedure :: nodal_contacts => beam_contacts
     procedure :: sizes => beam_sizes
@@ -180,6 +182,35 @@ contains
     end associate
   end subroutine beam_displacements
 
+  !> Forces on this rank's nodes as forces on their stations.
+  subroutine beam_forces(self, top, bumps, force)
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    real(wp), intent(in) :: top(:, :), bumps(:, :) !! (5, local nodes) on top foil and bumps [N], [N m]
+    real(wp), intent(out) :: force(:) !! one a local unknown of the foil, 0 where another rank owns it [N], [N m]
+
+    force = 0.0_wp
+    call add_to_stations(top, self%top_number(:, stations_of(self%top)))
+    call add_to_stations(bumps, self%bump_number(:, stations_of(self%bumps)))
+
+  contains
+
+    !> Adds the forces on one foil's nodes.
+    subroutine add_to_stations(nodal, number)
+      real(wp), intent(in) :: nodal(:, :)
+      integer, intent(in) :: number(:, :) !! (5, nodes) from 1; 0: fixed
+      integer :: node, k
+
+      do node = 1, size(number, 2)
+        do k = 1, size(number, 1)
+          if (number(k, node) == 0) cycle
+          associate (mine => force(self%own_place(number(k, node))))
+            mine = mine + nodal(k, node)
+          end associate
+        end do
+      end do
+    end subroutine add_to_stations
+  end subroutine beam_forces
+
   !> Stations of this rank's nodes.
   pure function stations_of(surface) result(station)
     type(foil_surface_type), intent(in) :: surface
@@ -210,6 +241,15 @@ contains
     real(wp), allocatable :: value(:, :)
     value = beam_stresses(surface, moved)
   end function stresses_of_beams
+
+  !> Stresses at the corners of beams, which are their ends.
+  function corner_stresses_of_beams(self, surface, moved) result(value)
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    type(foil_surface_type), intent(in) :: surface !! one of the foil's surfaces
+    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) displacements [m], [rad]
+    real(wp), allocatable :: value(:, :, :)
+    value = beam_end_stresses(surface, moved)
+  end function corner_stresses_of_beams
 
   !> Work of beams, on the solved width.
   subroutine work_of_beams(self, surface, moved, work, error)

@@ -13,7 +13,7 @@ module gfb_meshed_foil
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   implicit none (type)
   private
-  public :: both_surfaces, split_motion
+  public :: both_surfaces, split_motion, from_rest
 
   integer, parameter, public :: top_surface = 1, bump_surface = 2 !! of a foil's surfaces
 
@@ -42,7 +42,9 @@ module gfb_meshed_foil
     procedure :: add_modulus_rates => meshed_modulus_rates
     procedure :: free_matrix
     procedure(split_displacements), deferred :: split_displacements
+    procedure(gather_forces), deferred :: gather_forces
     procedure(stresses), deferred :: stresses
+    procedure(corner_stresses), deferred :: corner_stresses
     procedure(find_work), deferred :: find_work
   end type meshed_foil_type
 
@@ -56,6 +58,15 @@ module gfb_meshed_foil
       real(wp), allocatable, intent(out) :: bumps(:, :) !! the same of the bump foil [m], [rad]
     end subroutine split_displacements
 
+    !> Forces on this rank's nodes as forces on the unknowns: what `split_displacements` does, transposed. All ranks ask.
+    subroutine gather_forces(self, top, bumps, force)
+      import :: meshed_foil_type, wp
+      class(meshed_foil_type), intent(in) :: self !! the foil
+      real(wp), intent(in) :: top(:, :)   !! (5, local nodes) [N], [N m]
+      real(wp), intent(in) :: bumps(:, :) !! the same of the bump foil [N], [N m]
+      real(wp), intent(out) :: force(:)   !! one a local unknown of the foil, 0 where another rank owns it [N], [N m]
+    end subroutine gather_forces
+
     !> Stresses of a surface's elements on this rank.
     function stresses(self, surface, moved) result(value)
       import :: meshed_foil_type, foil_surface_type, wp
@@ -64,6 +75,15 @@ module gfb_meshed_foil
       real(wp), intent(in) :: moved(:, :)            !! (5, local nodes) [m], [rad]
       real(wp), allocatable :: value(:, :)           !! (8, elements of this rank) [Pa]
     end function stresses
+
+    !> Stresses at the corners of a surface's elements on this rank.
+    function corner_stresses(self, surface, moved) result(value)
+      import :: meshed_foil_type, foil_surface_type, wp
+      class(meshed_foil_type), intent(in) :: self !! the foil
+      type(foil_surface_type), intent(in) :: surface !! one of the foil's two
+      real(wp), intent(in) :: moved(:, :)            !! (5, local nodes) [m], [rad]
+      real(wp), allocatable :: value(:, :, :) !! (6, corners, elements of this rank), see `gfb_foil_stress` [Pa]
+    end function corner_stresses
 
     !> Work of the elastic forces of a motion in a surface's elements on this rank.
     subroutine find_work(self, surface, moved, work, error)
@@ -296,16 +316,21 @@ contains
     call self%split_displacements(unknown, list(top_surface)%displacement, bumps)
     if (size(list) >= bump_surface) call move_alloc(bumps, list(bump_surface)%displacement)
     do i = 1, size(list)
-      associate (displacement => list(i)%displacement)
-        if (i == top_surface .and. allocated(self%initial_load)) then
-          list(i)%stress = self%stresses(surface(i), displacement - free_shape(surface(i), self%initial_curvature))
-        else
-          list(i)%stress = self%stresses(surface(i), displacement)
-        end if
-        list(i)%stress = modulus(i)*list(i)%stress
-      end associate
+      list(i)%stress = modulus(i)*self%stresses(surface(i), from_rest(self, i, surface(i), list(i)%displacement))
     end do
   end function meshed_motions
+
+  !> Displacements of a surface from where it is free of stress.
+  function from_rest(foil, number, surface, displacement) result(moved)
+    class(meshed_foil_type), intent(in) :: foil !! whose surface it is
+    integer, intent(in) :: number !! `top_surface` or `bump_surface`
+    type(foil_surface_type), intent(in) :: surface !! that
+    real(wp), intent(in) :: displacement(:, :) !! (5, local nodes) [m], [rad]
+    real(wp) :: moved(size(displacement, 1), size(displacement, 2)) !! [m], [rad]
+
+    moved = displacement
+    if (number == top_surface .and. allocated(foil%initial_load)) moved = moved - free_shape(surface, foil%initial_curvature)
+  end function from_rest
 
   !> Displacements that take the initial bending off a foil that was unrolled: of a cylinder.
   !>

@@ -28,9 +28,9 @@ module gfb_plate_foil
   use gfb_foil_assembly, only: element_unknowns
   use gfb_foil_builder, only: build_top
   use gfb_foil_places, only: place_unknowns, add_pressure, size_unknowns
-  use gfb_foil_stress, only: shell_stresses
+  use gfb_foil_stress, only: shell_stresses, shell_corner_stresses
   use gfb_meshed_foil, only: meshed_foil_type, top_surface
-  use gfb_shell_foil, only: add_mass_block, count_rows, expand, turning, work_of_surface
+  use gfb_shell_foil, only: add_mass_block, count_rows, expand, gather, turning, work_of_surface
   implicit none (type)
   private
   public :: create_plate_foil
@@ -48,7 +48,9 @@ module gfb_plate_foil
     procedure :: surfaces => plate_surfaces
     procedure :: own_unknown => plate_own_unknown
     procedure :: split_displacements => plate_displacements
+    procedure :: gather_forces => plate_forces
     procedure :: stresses => stresses_of_plate
+    procedure :: corner_stresses => corner_stresses_of_plate
     procedure :: find_work => work_of_plate
     procedure :: destroy => plate_destroy
   end type plate_foil_type
@@ -305,6 +307,17 @@ contains
     allocate (bumps(node_unknowns, 0))
   end subroutine plate_displacements
 
+  !> Forces on the plate's nodes as forces on its unknowns.
+  subroutine plate_forces(self, top, bumps, force)
+    class(plate_foil_type), intent(in) :: self !! the plate
+    real(wp), intent(in) :: top(:, :)   !! (5, local nodes) [N], [N m]
+    real(wp), intent(in) :: bumps(:, :) !! there are none
+    real(wp), intent(out) :: force(:)   !! one a local unknown, 0 where another rank owns it [N], [N m]
+
+    force = 0.0_wp
+    call gather(self%top, top, self%own_place, force)
+  end subroutine plate_forces
+
   !> Stresses of the plate.
   function stresses_of_plate(self, surface, moved) result(value)
     class(plate_foil_type), intent(in) :: self !! the plate
@@ -313,6 +326,15 @@ contains
     real(wp), allocatable :: value(:, :)
     value = shell_stresses(surface, moved)
   end function stresses_of_plate
+
+  !> Stresses at the corners of the plate.
+  function corner_stresses_of_plate(self, surface, moved) result(value)
+    class(plate_foil_type), intent(in) :: self !! the plate
+    type(foil_surface_type), intent(in) :: surface !! one of the foil's surfaces
+    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) displacements [m], [rad]
+    real(wp), allocatable :: value(:, :, :)
+    value = shell_corner_stresses(surface, moved)
+  end function corner_stresses_of_plate
 
   !> Work of the plate's elastic forces.
   subroutine work_of_plate(self, surface, moved, work, error)

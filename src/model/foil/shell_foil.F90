@@ -18,7 +18,7 @@ module gfb_shell_foil
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
   use gfb_foil_places, only: foil_ranges_type, ranges_of, top_height, set_laws, place_unknowns, add_pressure, size_unknowns
   use gfb_condensed_piece, only: condensed_piece_type
-  use gfb_foil_stress, only: shell_stresses
+  use gfb_foil_stress, only: shell_stresses, shell_corner_stresses
   use gfb_rigid_modes, only: patch_type, find_patches, create_motions
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   use gfb_text, only: text
@@ -40,7 +40,7 @@ module gfb_shell_foil
   use gfb_initial_moment, only: add_initial_moment
   implicit none (type)
   private
-  public :: create_shell_foil, add_mass_block, count_rows, expand, turning, work_of_surface
+  public :: create_shell_foil, add_mass_block, count_rows, expand, gather, turning, work_of_surface
 
   !> Both foils, each a structure of shells, full or condensed.
   type, extends(meshed_foil_type), public :: shell_foil_type
@@ -52,7 +52,9 @@ module gfb_shell_foil
     procedure :: surfaces => shell_surfaces
     procedure :: own_unknown => shell_own_unknown
     procedure :: split_displacements => shell_displacements
+    procedure :: gather_forces => shell_forces
     procedure :: stresses => stresses_of_shells
+    procedure :: corner_stresses => corner_stresses_of_shells
     procedure :: find_work => work_of_shells
     procedure :: sizes => shell_sizes
     procedure :: destroy => shell_destroy
@@ -217,6 +219,38 @@ contains
     call expand(self%bumps, unknown(self%first + self%own_place(mine + 1:)), bumps)
   end subroutine shell_displacements
 
+  !> Forces on this rank's nodes of both foils as forces on the unknowns.
+  subroutine shell_forces(self, top, bumps, force)
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    real(wp), intent(in) :: top(:, :), bumps(:, :) !! (5, local nodes) on top foil and bumps [N], [N m]
+    real(wp), intent(out) :: force(:) !! one a local unknown of the foil, 0 where another rank owns it [N], [N m]
+    integer :: mine
+
+    mine = self%top%part%owned_unknowns
+    force = 0.0_wp
+    call gather(self%top, top, self%own_place(:mine), force)
+    call gather(self%bumps, bumps, self%own_place(mine + 1:), force)
+  end subroutine shell_forces
+
+  !> Forces on one structure's nodes at its owned unknowns.
+  subroutine gather(structure, nodal, place, force)
+    type(foil_structure_type), intent(in) :: structure !! of shells
+    real(wp), intent(in) :: nodal(:, :) !! (5, local nodes) [N], [N m]
+    integer, intent(in) :: place(:) !! local unknown of each owned one
+    real(wp), intent(inout) :: force(:) !! one a local unknown [N], [N m]
+    Vec :: total
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(size(place), pint), PETSC_DETERMINE, total, ierr))
+    PetscCallA(VecSet(total, 0.0_wp, ierr))
+    call structure%gather_forces(nodal, total)
+    PetscCallA(GFB_VecGetArrayRead(total, values, ierr))
+    force(place) = values
+    PetscCallA(GFB_VecRestoreArrayRead(total, values, ierr))
+    PetscCallA(VecDestroy(total, ierr))
+  end subroutine gather
+
   !> Displacements of one structure's nodes from its owned unknowns.
   subroutine expand(structure, owned, moved)
     type(foil_structure_type), intent(in) :: structure !! of shells
@@ -243,6 +277,15 @@ contains
     real(wp), allocatable :: value(:, :)
     value = shell_stresses(surface, moved)
   end function stresses_of_shells
+
+  !> Stresses at the corners of shells.
+  function corner_stresses_of_shells(self, surface, moved) result(value)
+    class(shell_foil_type), intent(in) :: self !! the shell foil
+    type(foil_surface_type), intent(in) :: surface !! one of the foil's surfaces
+    real(wp), intent(in) :: moved(:, :) !! (5, local nodes) displacements [m], [rad]
+    real(wp), allocatable :: value(:, :, :)
+    value = shell_corner_stresses(surface, moved)
+  end function corner_stresses_of_shells
 
   !> Work of shells.
   subroutine work_of_shells(self, surface, moved, work, error)

@@ -31,6 +31,7 @@ module gfb_strip_answer
     real(wp) :: penalty_energy = 0.0_wp       !! in the penetrations [J]
     real(wp) :: friction_work = 0.0_wp        !! since the start [J]
     type(contact_measures_type) :: contact    !! what its contacts say of the numbers of their laws
+    real(wp) :: stress = 0.0_wp               !! largest von Mises stress, where it was looked for [Pa]
     real(wp) :: round_off = 0.0_wp            !! of the deflections, relative, where it was looked for [1]
   end type strip_answer_type
 
@@ -179,6 +180,7 @@ contains
     call archive%visit('penetration', answer%contact%penetration)
     call archive%visit('slip', answer%contact%slip)
     call archive%visit('lacking', answer%contact%lacking)
+    call archive%visit('stress', answer%stress)
     call archive%visit('round_off', answer%round_off)
   end subroutine visit_answer
 end module gfb_strip_answer

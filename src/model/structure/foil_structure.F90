@@ -40,7 +40,7 @@ module gfb_foil_structure
     integer, allocatable :: column_part(:)   !! rank, from 1, of every column of elements
     logical :: created = .false.             !! the matrix is there
   contains
-    procedure :: unknown, numbers_at, natural_numbers, displacements, row_entries
+    procedure :: unknown, numbers_at, natural_numbers, displacements, gather_forces, row_entries
   end type foil_structure_type
 
 contains
@@ -323,43 +323,72 @@ contains
     real(wp), intent(out) :: moved(:, :) !! (5, local nodes) [m], [rad]
 
     Vec :: local
-    IS :: from
     VecScatter :: fetch
     PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    call create_fetch(self, solution, local, fetch)
+    PetscCallA(VecScatterBegin(fetch, solution, local, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    PetscCallA(VecScatterEnd(fetch, solution, local, INSERT_VALUES, SCATTER_FORWARD, ierr))
+    PetscCallA(GFB_VecGetArrayRead(local, values, ierr))
+    moved = unpack(values, self%slot(:, self%part%mesh_node) > 0, 0.0_wp)
+    PetscCallA(GFB_VecRestoreArrayRead(local, values, ierr))
+    PetscCallA(VecScatterDestroy(fetch, ierr))
+    PetscCallA(VecDestroy(local, ierr))
+    if (self%reduced) call recover_interior(self, moved)
+  end subroutine displacements
+
+  !> Forces on this rank's nodes as forces on the numbered unknowns: what `displacements` does, transposed.
+  subroutine gather_forces(self, force, total)
+    class(foil_structure_type), intent(in) :: self !! the foil
+    real(wp), intent(in) :: force(:, :) !! (5, local nodes) [N], [N m]; a node's forces of all ranks add up
+    Vec, intent(in) :: total !! of the numbered unknowns, gets what is added to it
+
+    Vec :: local
+    VecScatter :: fetch
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+    real(wp), allocatable :: outside(:, :)
+
+    outside = force
+    if (self%reduced) call condense_interior(self, outside)
+    call create_fetch(self, total, local, fetch)
+    PetscCallA(GFB_VecGetArray(local, values, ierr))
+    values = pack(outside, self%slot(:, self%part%mesh_node) > 0)
+    PetscCallA(GFB_VecRestoreArray(local, values, ierr))
+    PetscCallA(VecScatterBegin(fetch, local, total, ADD_VALUES, SCATTER_REVERSE, ierr))
+    PetscCallA(VecScatterEnd(fetch, local, total, ADD_VALUES, SCATTER_REVERSE, ierr))
+    PetscCallA(VecScatterDestroy(fetch, ierr))
+    PetscCallA(VecDestroy(local, ierr))
+  end subroutine gather_forces
+
+  !> The way from the numbered unknowns to those of this rank's nodes, node by node.
+  subroutine create_fetch(structure, solution, local, fetch)
+    type(foil_structure_type), intent(in) :: structure
+    Vec, intent(in) :: solution !! of the numbered unknowns
+    Vec, intent(out) :: local !! of this rank alone
+    VecScatter, intent(out) :: fetch
+    IS :: from
     PetscInt, allocatable :: number(:)
     PetscErrorCode :: ierr
     integer :: node, component, found
 
-    allocate (number(count(self%slot(:, self%part%mesh_node) > 0)))
-    found = 0
-    do node = 1, size(self%part%mesh_node)
-      do component = 1, node_unknowns
-        if (self%slot(component, self%part%mesh_node(node)) == 0) cycle
-        found = found + 1
-        number(found) = int(self%unknown(component, self%part%mesh_node(node)), pint)
+    associate (nodes => structure%part%mesh_node)
+      allocate (number(count(structure%slot(:, nodes) > 0)))
+      found = 0
+      do node = 1, size(nodes)
+        do component = 1, node_unknowns
+          if (structure%slot(component, nodes(node)) == 0) cycle
+          found = found + 1
+          number(found) = int(structure%unknown(component, nodes(node)), pint)
+        end do
       end do
-    end do
+    end associate
     PetscCallA(VecCreateSeq(PETSC_COMM_SELF, int(size(number), pint), local, ierr))
     PetscCallA(ISCreateGeneral(PETSC_COMM_SELF, int(size(number), pint), number, PETSC_COPY_VALUES, from, ierr))
     PetscCallA(VecScatterCreate(solution, from, local, PETSC_NULL_IS, fetch, ierr))
-    PetscCallA(VecScatterBegin(fetch, solution, local, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    PetscCallA(VecScatterEnd(fetch, solution, local, INSERT_VALUES, SCATTER_FORWARD, ierr))
-    PetscCallA(GFB_VecGetArrayRead(local, values, ierr))
-    moved = 0.0_wp
-    found = 0
-    do node = 1, size(self%part%mesh_node)
-      do component = 1, node_unknowns
-        if (self%slot(component, self%part%mesh_node(node)) == 0) cycle
-        found = found + 1
-        moved(component, node) = values(found)
-      end do
-    end do
-    PetscCallA(GFB_VecRestoreArrayRead(local, values, ierr))
-    PetscCallA(VecScatterDestroy(fetch, ierr))
     PetscCallA(ISDestroy(from, ierr))
-    PetscCallA(VecDestroy(local, ierr))
-    if (self%reduced) call recover_interior(self, moved)
-  end subroutine displacements
+  end subroutine create_fetch
 
   !> Fills in the displacements of the condensed nodes.
   subroutine recover_interior(structure, moved)
@@ -381,6 +410,30 @@ contains
       end associate
     end do
   end subroutine recover_interior
+
+  !> Brings forces on the condensed nodes to the retained ones, transposed to `recover_interior`.
+  subroutine condense_interior(structure, force)
+    type(foil_structure_type), intent(in) :: structure
+    real(wp), intent(inout) :: force(:, :) !! (5, local nodes)
+    real(wp), allocatable :: all_unknowns(:), condensed(:)
+    logical, allocatable :: has(:, :)
+    integer :: i
+
+    do i = 1, size(structure%mine)
+      associate (one => structure%substructure(structure%mine(i)))
+        associate (super => structure%super(one%kind), local => structure%local_node(one%nodes))
+          has = piece_unknowns(structure%free(:, one%nodes), one)
+          all_unknowns = pack(force(:, local), has)
+          all_unknowns(super%retained) = 0.0_wp ! they stay where they are
+          if (.not. any(abs(all_unknowns) > 0.0_wp)) cycle
+          condensed = super%condense_force(all_unknowns)
+          all_unknowns = 0.0_wp
+          all_unknowns(super%retained) = condensed
+          force(:, local) = force(:, local) + unpack(all_unknowns, has, 0.0_wp)
+        end associate
+      end associate
+    end do
+  end subroutine condense_interior
 
   !> Frees what PETSc holds; may be called twice.
   subroutine destroy_foil_structure(structure)

@@ -25,7 +25,7 @@ module gfb_super_element
     Mat, private :: block_ii, block_ib, block_bi, block_bb
     Mat :: schur                              !! the complement as PETSc keeps it
   contains
-    procedure :: recover, constraint_modes, interior_stiffness
+    procedure :: recover, condense_force, constraint_modes, interior_stiffness
   end type super_element_type
 
 contains
@@ -184,6 +184,37 @@ contains
     PetscCallA(VecDestroy(force, ierr))
     PetscCallA(VecDestroy(boundary, ierr))
   end subroutine recover
+
+  !> Forces on all unknowns as forces on the retained ones, which do the same work in every motion that `recover` gives:
+  !>
+  !> $$ \tilde{f} = f_B - K_{BI} K_{II}^{-1} f_I $$
+  function condense_force(self, force) result(condensed)
+    class(super_element_type), intent(in) :: self !! the super-element
+    real(wp), intent(in) :: force(:) !! one an unknown of the substructure [N], [N m]
+    real(wp) :: condensed(size(self%retained)) ! [N], [N m]
+
+    KSP :: inner
+    Vec :: boundary, load, moved
+    PetscScalar, pointer :: values(:)
+    PetscErrorCode :: ierr
+
+    condensed = force(self%retained)
+    if (size(self%interior) == 0) return
+    PetscCallA(MatCreateVecs(self%block_ib, boundary, load, ierr))
+    PetscCallA(VecDuplicate(load, moved, ierr))
+    PetscCallA(GFB_VecGetArray(load, values, ierr))
+    values = force(self%interior)
+    PetscCallA(GFB_VecRestoreArray(load, values, ierr))
+    PetscCallA(MatSchurComplementGetKSP(self%schur, inner, ierr))
+    PetscCallA(KSPSolve(inner, load, moved, ierr))
+    PetscCallA(MatMult(self%block_bi, moved, boundary, ierr))
+    PetscCallA(GFB_VecGetArrayRead(boundary, values, ierr))
+    condensed = condensed - values
+    PetscCallA(GFB_VecRestoreArrayRead(boundary, values, ierr))
+    PetscCallA(VecDestroy(moved, ierr))
+    PetscCallA(VecDestroy(load, ierr))
+    PetscCallA(VecDestroy(boundary, ierr))
+  end function condense_force
 
   !> Stiffness of the interior; a borrowed handle, not to be destroyed.
   subroutine interior_stiffness(self, matrix)

@@ -16,7 +16,7 @@ module gfb_study_cases
   public :: output_case_type, read_output_case, modes_case_type, read_modes_case, &
             accuracy_case_type, read_accuracy_case, asked_name, sample_case_type, &
             read_sample_case, percent_of, sensitivity_case_type, read_sensitivity_case, &
-            derives_whirl, &
+            derives_whirl, derives_stress, &
             capacity_case_type, read_capacity_case
 
   character(len=*), parameter :: field_words(*) = [character(len=10) :: &
@@ -75,12 +75,14 @@ module gfb_study_cases
   character(len=*), parameter, public :: quantity_words(*) = [character(len=28) :: &
     'eccentricity_x', 'eccentricity_y', 'attitude_angle', 'force_x', 'force_y', 'torque_x', &
     'torque_y', 'friction_torque', 'power_loss', 'minimum_gap', 'maximum_pressure', &
-    'minimum_pressure', 'film_temperature', 'maximum_film_temperature', 'top_foil_temperature', &
+    'minimum_pressure', 'maximum_top_foil_stress', 'maximum_bump_foil_stress', &
+    'film_temperature', 'maximum_film_temperature', 'top_foil_temperature', &
     'maximum_top_foil_temperature', 'shaft_temperature', 'sleeve_temperature', &
     'inlet_temperature', 'cooling_outlet_temperature', 'heat_to_shaft', 'heat_to_top_foil', &
     'heat_through_bumps', 'heat_to_channel', 'heat_by_gas', 'running_clearance', 'axial_gap', &
     'axial_force', 'critical_mass', 'whirl_ratio']
-  integer, parameter, public :: quantities_without_heat = 12 !! the first ones
+  integer, parameter, public :: quantities_without_heat = 14 !! the first ones
+  integer, parameter, public :: top_foil_stress = 13, bump_foil_stress = 14 !! the last of those
   integer, parameter, public :: quantities_of_whirl = 2 !! the last ones
   integer, parameter, public :: quantities_of_rings = 2 !! those before them
 
@@ -259,6 +261,12 @@ contains
                             'those of parameters', 'standard deviation of each of them: the '// &
                             'variance is told that they cause', not_negative, .false., 'none')
   end subroutine read_sensitivity_case
+
+  !> Whether derivatives of the foils' stresses are asked for.
+  pure logical function derives_stress(sensitivity) result(derives)
+    type(sensitivity_case_type), intent(in) :: sensitivity !! what is asked for
+    derives = any(sensitivity%quantity(top_foil_stress:bump_foil_stress))
+  end function derives_stress
 
   !> Whether derivatives of whirl are asked for.
   pure logical function derives_whirl(sensitivity) result(derives)

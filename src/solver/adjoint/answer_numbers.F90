@@ -1,7 +1,8 @@
 #include "gfb_petsc.h"
 !> Numbers of an answer as functions of its unknowns and of the bearing, and their derivatives by the unknowns.
 !>
-!> The smallest gap and the extreme pressures are those of the nodes where they are at the answer.
+!> The smallest gap and the extreme pressures are those of the nodes where they are at the answer, the largest stresses of the foils
+!> those of the elements.
 module gfb_answer_numbers
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
@@ -17,12 +18,14 @@ module gfb_answer_numbers
   use gfb_bearing_heat, only: temperatures_at, moduli_at
   use gfb_film_heat, only: state_of, walls_of
   use gfb_heat_answer, only: heat_answer_type, heat_answer
+  use gfb_meshed_foil, only: bump_surface
+  use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress, stress_at, add_stress_rates
   implicit none (type)
   private
   public :: find_extremes, measure, measure_gradient
 
   integer, parameter, public :: place_e = 1, place_force = 3, place_torque = 7, place_speed = 8 !! first numbers of each kind
-  integer, parameter, public :: place_extremes = 9, place_heat = 12, numbers = 25
+  integer, parameter, public :: place_extremes = 9, place_stress = 12, place_heat = place_stress + surfaces, numbers = 27
   integer, parameter :: forces = place_torque - place_force
   integer, parameter :: extremes = 3 !! smallest gap, largest and smallest pressure
   !> numbers of heat: temperatures
@@ -35,6 +38,7 @@ module gfb_answer_numbers
   !> The film nodes of extreme values, 0 on all ranks but one; with heat those of the hottest film and top foil, too.
   type, public :: extreme_nodes_type
     integer :: node(extremes + 2) = 0
+    type(stress_place_type) :: stress(surfaces) !! of each surface's largest stress; pad 0 where it is not asked for
   end type extreme_nodes_type
 
   !> How the foils of a pad move.
@@ -52,9 +56,10 @@ module gfb_answer_numbers
 
 contains
 
-  !> The nodes of the smallest gap and of the largest and smallest pressure at the present state.
-  subroutine find_extremes(bearing, where_they_are)
+  !> The nodes of the smallest gap and of the largest and smallest pressure at the present state, the elements of the largest stresses.
+  subroutine find_extremes(bearing, stresses, where_they_are)
     type(bearing_system_type), intent(in) :: bearing !! at an answer
+    logical, intent(in) :: stresses !! are looked for
     type(extreme_nodes_type), intent(out) :: where_they_are !! on this rank
     real(wp) :: unknown(bearing%local_size()), value(bearing%film_nodes(), extremes + 2)
     real(wp), dimension(extremes + 2) :: most, here
@@ -76,7 +81,37 @@ contains
     do i = 1, merge(size(here), extremes, bearing%heat%present)
       if (nint(here(i)) == this_rank() + 1) where_they_are%node(i) = maxloc(value(:, i), 1)
     end do
+    if (stresses) call find_stresses(bearing, unknown, where_they_are%stress)
   end subroutine find_extremes
+
+  !> The elements where the stresses of the foils are largest, on one rank each.
+  subroutine find_stresses(bearing, unknown, stress)
+    type(bearing_system_type), intent(in) :: bearing !! whose foils are meshed
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(stress_place_type), intent(out) :: stress(:)
+    type(stress_place_type) :: place(surfaces)
+    real(wp), dimension(surfaces) :: most, largest, owner
+    integer :: i, k
+
+    most = 0.0_wp
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i))
+        call find_largest_stress(pad%foil, unknown(pad%first + 1:pad%last), place, largest)
+        largest = bearing%modulus(i, unknown)*largest
+        owner = largest_over_ranks(largest)
+        do k = 1, surfaces
+          if (.not. owner(k) > most(k)) cycle
+          most(k) = owner(k)
+          stress(k) = place(k)
+          stress(k)%pad = i
+          if (largest(k) < most(k)) stress(k)%element = 0
+        end do
+      end associate
+    end do
+    ! one of those ranks that have the same stress
+    owner = largest_over_ranks(merge(real(this_rank() + 1, wp), 0.0_wp, stress%element > 0))
+    where (nint(owner) /= this_rank() + 1) stress%element = 0
+  end subroutine find_stresses
 
   !> Mean temperature over the gap at this rank's film nodes, pad by pad [K].
   function mean_temperature(bearing, unknown) result(mean)
@@ -95,7 +130,7 @@ contains
   end function mean_temperature
 
   !> Eccentricity, or of a ring e_z and 0 [m], forces and torques, see `coordinates_of` [N], [N m], friction torque [N m], speed [rad/s], the values
-  !> at the extreme nodes [m], [Pa]; with heat temperatures [K], its ways [W], the clearance that is left [m].
+  !> at the extreme nodes [m], [Pa], stresses of the foils [Pa]; with heat temperatures [K], its ways [W], the clearance that is left [m].
   function measure(bearing, unknown, point, nodes) result(number)
     type(bearing_system_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: unknown(:) !! local, in SI
@@ -126,6 +161,7 @@ contains
     do i = 2, extremes
       if (nodes%node(i) > 0) number(place_extremes + i - 1) = pressure(nodes%node(i))
     end do
+    if (any(nodes%stress%pad > 0)) call measure_stresses(bearing, unknown, nodes%stress, number(place_stress:place_heat - 1))
     number = sum_over_ranks(number)
     associate (of_force => coordinates_of(bearing%pad(1)%film%surface))
       number(place_e:place_e + 1) = here%place(of_force(:2))
@@ -133,6 +169,26 @@ contains
     number(place_speed) = point%speed
     if (bearing%heat%present) call measure_heat(bearing, here, unknown, gap, number)
   end function measure
+
+  !> This rank's stresses at the places where they were largest.
+  subroutine measure_stresses(bearing, unknown, place, stress)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(stress_place_type), intent(in) :: place(:)
+    real(wp), intent(inout) :: stress(:) !! one a surface [Pa]
+    integer :: i, k
+
+    do i = 1, size(bearing%pad)
+      if (all(place%pad /= i)) cycle
+      associate (pad => bearing%pad(i))
+        associate (here => bearing%modulus(i, unknown)*stress_at(pad%foil, place, unknown(pad%first + 1:pad%last)))
+          do k = 1, size(place)
+            if (place(k)%pad == i) stress(k) = here(k)
+          end do
+        end associate
+      end associate
+    end do
+  end subroutine measure_stresses
 
   !> The shaft's coordinates whose forces are numbers: F_x, F_y, M_x, M_y of a journal; of a ring F_z in F_x' place, and F_y is 0.
   pure function coordinates_of(surface) result(coordinate)
@@ -204,6 +260,7 @@ contains
       end do
     end if
     call add_extremes(bearing, nodes, gradient, by_gap)
+    call add_stresses(bearing, nodes%stress, unknown, gradient(:, place_stress:place_heat - 1))
     do i = 1, size(bearing%pad)
       call follow_gap(bearing, bearing%pad(i), unknown, by_gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node, :), gradient)
     end do
@@ -455,6 +512,34 @@ contains
       end do
     end do
   end subroutine add_extremes
+
+  !> The largest stresses, by the foil's unknowns and by the temperatures that its modulus follows.
+  subroutine add_stresses(bearing, place, unknown, gradient)
+    type(bearing_system_type), intent(in) :: bearing
+    type(stress_place_type), intent(in) :: place(:)
+    real(wp), intent(in) :: unknown(:) !! the bearing's, in SI
+    real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, stresses)
+    real(wp) :: ratio(2), rate(2)
+    integer :: k
+
+    do k = 1, size(place)
+      if (place(k)%pad == 0) cycle
+      associate (pad => bearing%pad(place(k)%pad), heat => bearing%heat)
+        associate (own => unknown(pad%first + 1:pad%last), mine => gradient(pad%first + 1:pad%last, k))
+          call add_stress_rates(pad%foil, place(k), own, mine)
+          ratio = bearing%modulus(place(k)%pad, unknown)
+          mine = ratio(k)*mine
+          if (.not. heat%softens()) cycle
+          call moduli_at(heat, place(k)%pad, bearing%point%growth, unknown, ratio, rate)
+          associate (slope => rate(k)*stress_at(pad%foil, place(k:k), own), mean => heat%first_wall + heat%mean_wall(pad%number), &
+                     sleeve => heat%first_wall + heat%sleeve_wall())
+            gradient(mean, k) = gradient(mean, k) + slope(1)
+            if (k == bump_surface) gradient(sleeve, k) = gradient(sleeve, k) + slope(1)
+          end associate
+        end associate
+      end associate
+    end do
+  end subroutine add_stresses
 
   !> What a pad's gap does by the temperatures of shaft and sleeve.
   pure subroutine follow_growth(bearing, pad, by_gap, gradient)

@@ -10,7 +10,7 @@ module gfb_key_differences
   use gfb_fixed_lines, only: fixed_line_half_flat
   implicit none (type, external)
   private
-  public :: difference_of, present_value, step_of, changed_point, keeps_meshes
+  public :: difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
 
   !> part of what is changed, where little is lost to rounding [1]
   real(wp), parameter, public :: small = 4.0e-6_wp
@@ -126,4 +126,10 @@ contains
       end select
     end associate
   end function keeps_meshes
+
+  !> Whether a key is one of the foils themselves: their sheets and shapes, not where they touch.
+  pure logical function changes_foils(key) result(changes)
+    type(swept_key_type), intent(in) :: key !! that changes
+    changes = (key%group == 'top_foil' .or. key%group == 'bump_foil') .and. .not. key%is_gap()
+  end function changes_foils
 end module gfb_key_differences

@@ -15,7 +15,7 @@ module gfb_sensitivity
   use gfb_kinds, only: wp
   use gfb_units, only: degrees
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: parameter_type, quantity_words, quantities_of_whirl, quantities_of_rings
+  use gfb_study_cases, only: parameter_type, quantity_words, quantities_of_whirl, quantities_of_rings, derives_stress
   use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
@@ -24,7 +24,7 @@ module gfb_sensitivity
   use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
   use gfb_newton, only: newton_type
   use gfb_corrected_solve, only: solve_corrected
-  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes
+  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
                                 place_e, place_force, place_torque, place_speed, place_extremes, place_heat
   use gfb_errors, only: error_type
@@ -79,7 +79,7 @@ contains
 
     allocate (answer%unknown(bearing%local_size()), answer%motion(0))
     call bearing%get_unknowns(answer%unknown)
-    call find_extremes(bearing, answer%nodes)
+    call find_extremes(bearing, derives_stress(scene%sensitivity), answer%nodes)
     number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call combine(number, found%value, combined)
     asked = scene%sensitivity%quantity
@@ -286,7 +286,9 @@ contains
         return
       end if
       call keep_elements(scene, there)
-      if (meshes_foils(scene%model%foil) .and. keeps_meshes(scene, parameter%key)) then
+      ! Stresses of changed foils, condensed parts with them, are those of foils built anew.
+      if (meshes_foils(scene%model%foil) .and. keeps_meshes(scene, parameter%key) .and. &
+          .not. (derives_stress(scene%sensitivity) .and. changes_foils(parameter%key))) then
         call evaluate_in_place(scene, there, parameter%key, bearing, answer, residual, number, work, valid, error)
       else
         call evaluate_rebuilt(there, bearing, answer, residual, number, valid, problem, error)

@@ -71,7 +71,8 @@ contains
       self%iterations = newton%iterations
       self%factorizations = newton%factorizations
       self%factorizations_finest = newton%factorizations - newton%factorizations_before
-      self%found = answer_quantities(analysis_name(scene), self%converged, bearing_answer(bearing), &
+      self%found = answer_quantities(analysis_name(scene), self%converged, &
+                                     bearing_answer(bearing, stresses=scene%accuracy%present .or. scene%sample%present), &
                                      bearing%clearance, bearing%force_scale())
       if (self%converged .and. allocated(record%limit)) call add_quantity(self%found, record%limit)
       if (.not. self%converged .or. .not. allocated(record%dynamics%point)) return

@@ -244,7 +244,7 @@ contains
     type(history_row_type), allocatable :: columns(:)
 
     associate (bearing => solution%bearing, record => solution%record, converged => result%converged, log => context%log)
-      answer = bearing_answer(bearing)
+      answer = bearing_answer(bearing, stresses=.true.)
       call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, &
                                                    bearing%clearance, bearing%force_scale()))
       call add_quantity(summary, summary_quantities(record%tilted))

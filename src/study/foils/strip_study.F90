@@ -28,11 +28,11 @@ module gfb_strip_study
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
-  use gfb_petsc_session, only: rank_count
+  use gfb_petsc_session, only: rank_count, largest_over_ranks
   use gfb_shell_geometry, only: node_unknowns
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement, add_contacts, add_stress
-  use gfb_foil_stress, only: shell_stresses
+  use gfb_foil_stress, only: shell_stresses, shell_corner_stresses, find_largest
   use gfb_answer_notes, only: show_contact_notes, show_loop_note
   use gfb_provenance, only: blas_in_use
   use gfb_mesh_case, only: linear_solver_iterative
@@ -129,6 +129,30 @@ contains
     if (.not. (stop_agreed() .or. report%converged)) call self%explain(point, report%reason, reason)
   end subroutine reach_step
 
+  !> Displacements of this rank's nodes.
+  function displacements_of(strip) result(moved)
+    type(strip_system_type), intent(in) :: strip
+    real(wp), allocatable :: moved(:, :) ! (5, local nodes) [m], [rad]
+    Vec :: solution
+    PetscErrorCode :: ierr
+
+    allocate (moved(node_unknowns, size(strip%foil%part%mesh_node)))
+    call strip%foil_solution(solution)
+    call strip%foil%displacements(solution, moved)
+    PetscCallA(VecDestroy(solution, ierr))
+  end function displacements_of
+
+  !> Largest von Mises stress of all elements, on either face [Pa].
+  real(wp) function largest_stress(strip) result(stress)
+    type(strip_system_type), intent(in) :: strip
+    real(wp) :: largest(1)
+    integer :: element, corner, face
+
+    call find_largest(shell_corner_stresses(strip%foil, displacements_of(strip)), largest(1), element, corner, face)
+    largest = largest_over_ranks(largest)
+    stress = largest(1)
+  end function largest_stress
+
   !> Records a step's answer, from which the next one starts.
   subroutine record_step(self, point)
     class(strip_study_type), target, intent(inout) :: self !! the load steps
@@ -141,6 +165,7 @@ contains
       call record_contacts(self%strip%contacts, point, load%steps_up + load%steps_down, run%contacts)
       call self%strip%commit()
       if (point == load%steps_up) run%last%round_off = max(self%strip%stiffness_round_off(), self%path%round_off)
+      if (point == load%steps_up) run%last%stress = largest_stress(self%strip)
       if (point <= load%steps_up) run%full = run%last
       run%steps = point
       iterations = self%newton%iterations - self%before(1)
@@ -317,6 +342,9 @@ contains
     if (plates) call log%line('plate travel '//text(run%full%travel*1.0e6_wp, 6)//' um')
     call log%line('force on all crests '//text(run%full%force, 5)//' N, '//text(rank_count())// &
                   ' rank(s), BLAS '//blas_in_use())
+    if (run%full%stress > 0.0_wp) then
+      call log%line('largest stress '//text(run%full%stress*1.0e-6_wp, 5)//' MPa (von Mises)')
+    end if
     if (run%converged .and. run%full%factor > run%last%factor) then
       call log%line('dissipated in the cycle '//text(run%last%external_work*1.0e3_wp, 5)//' mJ')
     end if
@@ -377,8 +405,6 @@ contains
     type(case_array_type), allocatable :: arrays(:)
     real(wp), allocatable :: moved(:, :)
     logical :: plates
-    Vec :: solution
-    PetscErrorCode :: ierr
 
     plates = scene%strip_load%kind == load_plates
     self%newton%iterations = self%iterations
@@ -393,10 +419,7 @@ contains
       call warn(context%log, scene, run%full)
       call show_contact_notes(context%log, scene%contact, run%full%contact, max(run%full%travel, maxval(run%full%deflection)))
       if (run%full%factor > run%last%factor) call show_loop_note(context%log, scene%contact, run%full%contact%slip)
-      allocate (moved(node_unknowns, size(strip%foil%part%mesh_node)))
-      call strip%foil_solution(solution)
-      call strip%foil%displacements(solution, moved)
-      PetscCallA(VecDestroy(solution, ierr))
+      moved = displacements_of(strip)
       call create_foil_grid(strip%foil, 'bump_foil', grid)
       call add_displacement(strip%foil, 'displacement', 'of the mid-surface', moved, grid)
       call add_contacts(strip%contacts, strip%foil, grid)

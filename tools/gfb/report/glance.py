@@ -30,7 +30,7 @@ class Results:
         value = self.value(name)
         if value is None:
             return ""
-        unit, scale = readable_unit(self.summary[name]["unit"])
+        unit, scale = readable_unit(self.summary[name]["unit"], name)
         error = self.value(f"{name}_error")
         return f"{scale*value:.4g}" + (f" ± {scale*error:.2g}" if error is not None else "") + (f" {unit}" if unit != "1" else "")
 
@@ -148,6 +148,9 @@ def foils(results):
         yield "foil gives way by", results.words("maximum_deflection"), "", False
     if idle:
         yield "crests that touch nothing", idle, "", False
+    for words, name in (("largest stress of the top foil", "maximum_top_foil_stress"), ("largest stress of the bumps", "maximum_bump_foil_stress")):
+        if results.value(name) is not None:
+            yield words, results.words(name), "von Mises", False
 
 
 def heat(results):

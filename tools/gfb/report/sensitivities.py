@@ -63,20 +63,20 @@ def block(quantity, derivatives, summary, tolerances, case, swept):
     value, unit = summary[quantity]["value"], summary[quantity]["unit"]
     largest = abs(effects[0][1]) if effects else 0.0
     bars = [{"key": key, "words": key.replace("%", ": ").replace("_", " "), "grows": effect > 0.0, "length": 100.0*abs(effect)/largest,
-             "effect": signed(effect, unit), "share": f"{100.0*effect/value:+.3g} %" if value else ""}
+             "effect": signed(effect, unit, quantity), "share": f"{100.0*effect/value:+.3g} %" if value else ""}
             for key, effect in effects[:MOST_BARS] if effect]
     spread = summary.get(f"standard_deviation_{quantity}", {}).get("value")
-    return {"quantity": WORDS.get(quantity, quantity.replace("_", " ")), "value": plain(value, unit), "by_tolerance": by_tolerance, "bars": bars,
-            "spread": plain(spread, unit) if spread is not None else "", "left_out": len(effects) - len(bars), "silent": silent}
+    return {"quantity": WORDS.get(quantity, quantity.replace("_", " ")), "value": plain(value, unit, quantity), "by_tolerance": by_tolerance, "bars": bars,
+            "spread": plain(spread, unit, quantity) if spread is not None else "", "left_out": len(effects) - len(bars), "silent": silent}
 
 
-def plain(value, unit):
-    """A number in the unit of a page."""
-    number, unit = readable(value, unit)
+def plain(value, unit, of):
+    """A number in the unit of a page; of: the result that it is of."""
+    number, unit = readable(value, unit, of)
     return f"{number:.4g}" + (f" {unit}" if unit != "1" else "")
 
 
-def signed(value, unit):
+def signed(value, unit, of):
     """The same of a difference."""
-    number, unit = readable(value, unit)
+    number, unit = readable(value, unit, of)
     return f"{number:+.3g}" + (f" {unit}" if unit != "1" else "")
