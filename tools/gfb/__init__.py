@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Case", "CaseError", "Design", "Mode", "Models", "Optimum", "Result", "RunError", "compare_models", "design", "optimize",
            "read", "ross_bearings", "ross_modes", "run", "study"]
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _HOMES = {"Case": "gfb.case", "CaseError": "gfb.case", "Result": "gfb.door", "RunError": "gfb.door",
           "study": "gfb.door", "read": "gfb.reading", "Models": "gfb.models", "compare_models": "gfb.models",
