@@ -181,6 +181,15 @@ class Messages(unittest.TestCase):
         self.assertGreater(seen, 40)
 
 
+class Checked(InFolder):
+    def test_what_a_library_says_beside_it_is_no_mistake(self):
+        path = self.folder/"talking"
+        path.write_text(f"#!/bin/sh\necho 'no /sys here' >&2\nexec {program()} \"$@\"\n", encoding="utf-8")
+        path.chmod(0o755)
+        self.assertEqual(asyncio.run(check(path, SMALL)).messages, ())
+        self.assertFalse(asyncio.run(check(path, SMALL.replace("radius", "radios"))).is_right)
+
+
 class Places(InFolder):
     """The chosen folder and what is outside."""
 

@@ -13,7 +13,6 @@ vibration, at one speed where no other is said: for stability take them at the f
 Of a thrust bearing ROSS gets kzz and czz, along the axis; the others are zero.
 """
 
-import argparse
 import importlib.util
 import json
 import math
@@ -24,7 +23,7 @@ import numpy
 from gfb.case import Case
 from gfb.results import Unreadable, open_results, reading, text_of
 from gfb.state_space import CannotFit, fit
-from gfb.tool import say, stop
+from gfb.tool import parser_of, say, stop
 
 PLANE = (("xx", 0, 0), ("xy", 0, 1), ("yx", 1, 0), ("yy", 1, 1))  # name, row, column
 ROSS_3 = "3: a table over the speed of the shaft (rows) and the frequency of vibration"
@@ -215,8 +214,7 @@ def save(path, content):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="tools/coefficients", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of("tools/coefficients", __doc__)
     parser.add_argument("file", type=pathlib.Path, help="CASE.h5")
     parser.add_argument("--ross", type=pathlib.Path, metavar="TOML", help="write ROSS's file")
     parser.add_argument("--xltrc", type=pathlib.Path, metavar="TXT", help="write XLTRC2's columns")

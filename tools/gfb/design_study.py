@@ -9,7 +9,6 @@ yet. A part that does not apply is left out, in words. Exit status: 0 the page i
 
 from __future__ import annotations
 
-import argparse
 import concurrent.futures
 import dataclasses
 import math
@@ -27,7 +26,7 @@ from gfb.door import DONE, ENDINGS, find_member, run_member
 from gfb.report.glance import carried_by, glance
 from gfb.report.main import read_run, write_page
 from gfb.results import read_history, read_summary
-from gfb.tool import draw_into_files, say
+from gfb.tool import draw_into_files, parser_of, say
 
 DIRECTIONS = 12                      # of the load, around the bearing
 SPEEDS = (0.5, 0.75, 1.0, 1.25)      # over the speed of the case, of capacities
@@ -302,7 +301,7 @@ ANSWERS = {"directions": answer_directions, "capacity": answer_capacity, "whirl"
 
 def main() -> int:
     """The command."""
-    parser = argparse.ArgumentParser(prog="tools/design", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of("tools/design", __doc__)
     parser.add_argument("case", type=pathlib.Path, metavar="CASE.nml", help="a bearing with a load")
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR", help="folder; default: results/CASE.design")
     parser.add_argument("--smallest-gap", type=float, metavar="M", help=f"film at which a limit is reached [m]; default: the case's, or {SMALLEST_GAP:g}")

@@ -1,10 +1,12 @@
 """What every tool begins and ends with: the checkout, Python packages, a message and a status."""
 
+import argparse
 import importlib.abc
 import importlib.machinery
 import importlib.util
 import os
 import pathlib
+import re
 import sys
 import unittest.mock
 
@@ -22,6 +24,13 @@ def stop(words, status=1):
     """Ends the tool with a message; 1: the user can mend it, 3: the machine failed."""
     print(words, file=sys.stderr)
     sys.exit(status)
+
+
+def parser_of(command, words):
+    """A command's arguments and help; installed it is not tools/... but gfb-..., there too."""
+    if pathlib.Path(sys.argv[0]).name.startswith("gfb-"):
+        command, words = (re.sub(r"\btools/(?=(?:plot|report|design|coefficients|studio)\b)", "gfb-", one) for one in (command, words))
+    return argparse.ArgumentParser(prog=command, description=words, formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
 def run(main):

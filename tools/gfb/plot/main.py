@@ -44,7 +44,7 @@ import re
 
 import numpy
 
-from gfb.tool import draw_into_files, stop
+from gfb.tool import draw_into_files, parser_of, stop
 
 draw_into_files()
 from matplotlib import pyplot  # noqa: E402
@@ -71,8 +71,7 @@ USUAL_OF_ONE = ("force_x", "force_y", "eccentricity_x", "eccentricity_y", "attit
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="tools/plot", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of("tools/plot", __doc__)
     parser.add_argument("file", type=pathlib.Path, help="CASE.film.vtkhdf, CASE.bump_foil.vtkhdf or CASE.h5")
     parser.add_argument("columns", nargs="*", metavar="COLUMN",
                         help="names of the history, such as minimum_gap; or more files, NAME.h5")

@@ -7,7 +7,6 @@ needed and why (as gfb --check tells it), pictures, the points of a sweep or the
 from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be written.
 """
 
-import argparse
 import base64
 import os
 import pathlib
@@ -23,7 +22,7 @@ from gfb.heat import HEATED, balance
 from gfb.report.glance import glance, sketch
 from gfb.report.sensitivities import sensitivities
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
-from gfb.tool import draw_into_files, say, stop
+from gfb.tool import draw_into_files, parser_of, say, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
@@ -35,7 +34,7 @@ MOST_ROWS = 400   # of a table of points
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="tools/report", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of("tools/report", __doc__)
     parser.add_argument("results", nargs="+", metavar="RESULT", help="CASE.h5, CASE.summary, or CASE")
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="HTML", help="the page; default: beside the first result")
     parser.add_argument("--gfb", help="the program, for what the scene needed; default: as gfb from Python finds it")

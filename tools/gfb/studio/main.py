@@ -7,7 +7,6 @@ machine reaches the page (127.0.0.1), and only who knows the address, of which a
 1 there is no such folder or program, 3 the port is taken.
 """
 
-import argparse
 import asyncio
 import contextlib
 import os
@@ -16,14 +15,14 @@ import secrets
 import socket
 
 from gfb.case import program
-from gfb.tool import draw_into_files, stop
+from gfb.tool import draw_into_files, parser_of, stop
 
 HOST = "127.0.0.1"
 GOODBYE = 2  # s for what is still being sent
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="tools/studio", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of("tools/studio", __doc__)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=pathlib.Path(), metavar="FOLDER",
                         help="of case files and runs; default: here")
     parser.add_argument("--port", type=int, default=0, help="default: one that is free")
