@@ -31,6 +31,7 @@ from gfb.key_tables import key_tables  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.results import SEAL_LENGTH, Unreadable, read_json  # noqa: E402
 from gfb.tool import run  # noqa: E402
+from slow import slow  # noqa: E402
 
 OF_PYTHON = ("bench", "coefficients", "compare", "design", "gallery", "manual", "plot", "report")
 OTHERS = ("check", "check_floating_point", "check_petsc", "check_systems", "package", "run", "structure", "studio", "test")
@@ -165,7 +166,8 @@ class Files(unittest.TestCase):
                 path.write_bytes(content)
                 self.assert_told(main, path, words, where)
 
-    def test_older_and_newer_files(self):
+    @slow
+    def test_slow_older_and_newer_files(self):
         """Without checksum, and each with one thing that is missing, or of another shape or kind."""
         chance, answered, told = random.Random(1), 0, 0
         for main, name, words in CALLS:

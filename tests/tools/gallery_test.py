@@ -19,6 +19,7 @@ from gfb.gallery import page as gallery_page  # noqa: E402 (found only now)
 from gfb.gallery import runs as gallery_runs  # noqa: E402
 from gfb.gallery import tilt as gallery_tilt  # noqa: E402
 from gfb.plot.film import Film  # noqa: E402
+from slow import slow  # noqa: E402
 
 AMBIENT = 1.0e5
 FRAME = "(../../manual/frame.md)"
@@ -108,7 +109,8 @@ class Measures(unittest.TestCase):
 class Pages(unittest.TestCase):
     """Pages made here by gfb, and those of the checkout."""
 
-    def test_a_page_has_picture_numbers_frame_and_parameters(self):
+    @slow
+    def test_slow_a_page_has_picture_numbers_frame_and_parameters(self):
         with tempfile.TemporaryDirectory() as folder:
             output, runs = pathlib.Path(folder)/"pages", pathlib.Path(folder)/"runs"
             options = ("--only", "fig8a,frame", "--quick", "--output", output, "--runs", runs)

@@ -31,6 +31,7 @@ from gfb.plot import rotor as plot_rotor  # noqa: E402
 from gfb.plot import sample as plot_sample  # noqa: E402
 from gfb.plot import scene as plot_scene  # noqa: E402
 from gfb.plot import strip as plot_strip  # noqa: E402
+from slow import slow  # noqa: E402
 
 SMALL = """&scene analysis = 'strip' /
 &bump_foil thickness = 0.127e-3 youngs_modulus = 207.0e9 poissons_ratio = 0.3 half_length = 3.3e-3
@@ -198,7 +199,8 @@ class BearingTest(unittest.TestCase):
         self.assertEqual([chart.get_ylabel() for chart in charts], ["load capacity [N]", "coefficient [lbf/(in^3 krpm)]"])
         numpy.testing.assert_allclose(charts[0].lines[0].get_ydata(), [10.0, 20.0])
 
-    def test_foils_of_gfb(self):
+    @slow
+    def test_slow_foils_of_gfb(self):
         (self.folder/"beams.nml").write_text(BEAMS, encoding="utf-8")
         subprocess.run([os.environ["GFB"], "--output", self.folder, self.folder/"beams.nml"], check=True,
                        stdout=subprocess.DEVNULL)

@@ -16,6 +16,7 @@ from gfb.case import launcher  # noqa: E402
 from gfb.design_study import tell_tilt  # noqa: E402
 from gfb.results import Unreadable, read_history  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
+from slow import slow  # noqa: E402
 
 SMALL = {"scene": {"title": "it's small", "analysis": "equilibrium"},
          "bearing": {"radius": 0.02, "length": 0.04, "clearance": 2.0e-5},
@@ -88,7 +89,8 @@ class PythonTest(unittest.TestCase):
         gfb.compare_models(case, ("rigid",), self.folder)
         self.assertEqual((self.folder/"models_rigid.summary").stat().st_mtime_ns, written, "what is there is computed again")
 
-    def test_design(self):
+    @slow
+    def test_slow_design(self):
         case = gfb.Case(SMALL | {"rotor": {"mass": 2.0}})
         said = []
         found = gfb.design(case, self.folder, smallest_gap=8.0e-6, tell=said.append)

@@ -16,6 +16,7 @@ from gfb.report.glance import glance, sketch  # noqa: E402
 from gfb.report.main import thinnest_pad  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
+from slow import slow  # noqa: E402
 
 VOID = {"meta", "link", "img", "br"}
 SMALL = {"scene": {"title": "small & <rigid>", "analysis": "equilibrium"},
@@ -80,7 +81,8 @@ class ReportTest(unittest.TestCase):
         self.assertTrue(all(source.startswith("data:") for source in page.sources), "it needs another file")
         return page, " ".join(" ".join(page.words).split())
 
-    def test_two_side_by_side(self):
+    @slow
+    def test_slow_two_side_by_side(self):
         page, words = self.page(self.folder/"first.h5", self.folder/"second.summary")
         self.assertIn("small & <rigid>", words)
         self.assertIn(f"{self.first['minimum_gap']:.6g}", words)
@@ -173,7 +175,8 @@ class ReportTest(unittest.TestCase):
         self.assertAlmostEqual(drawn["load"][2], 70.0)
         self.assertAlmostEqual(drawn["load"][3], 60.0)
 
-    def test_what_is_no_result(self):
+    @slow
+    def test_slow_what_is_no_result(self):
         (self.folder/"bad.h5").write_bytes(b"no HDF5")
         for name, words in (("bad.h5", "not a whole file"), ("none.h5", "there is no such result")):
             status, said = report(self.folder/name)

@@ -10,12 +10,10 @@ import dataclasses
 import json
 import math
 import pathlib
-import sys
-import tempfile
 
 import gfb_run
 import shell_bearing
-from gfb_run import GFB, Bearing, Checks, case_text, run, run_file, summary_difference
+from gfb_run import Bearing, GFB, case_text, run, run_checks, run_file, summary_difference
 from gfb.bench import accuracy as bench  # gfb_run has made it known
 
 BEARING = Bearing()
@@ -29,8 +27,6 @@ SMALL_STRIP = {
     "strip_load": {"pressure": 1.0e5},
     "mesh": {"arc_elements": 16, "flat_elements": 4, "axial_elements": 16},
 }
-COVERED = ("rigid_24", "rigid_26", "rigid_28", "rigid_31", "rigid_32", "rigid_34", "rigid_35", "springs_14", "local_02",
-           "local_03", "beams_06")
 SMALL_SHELL_MESH = {"circumferential_elements": 208, "axial_elements": 8, "arc_elements": 8, "flat_elements": 4,
                     "align_crests": False}
 
@@ -143,10 +139,10 @@ def check_beams(checks, folder):
     checks.below(f"beams are off by {100.0*off:.4g} %", told/(100.0*off) - 1.0, 5.0e-2)
 
 
-def check_coverage(checks, folder, names):
+def check_coverage(checks, folder):
     """Stated errors cover the true ones: nodal extremes, fast, long, short, tilted, on foundations and beams."""
     fine = json.loads(bench.REFERENCE.read_text(encoding="utf-8"))["scenes"]
-    rows = [bench.measure(GFB, folder, name, fine[name]) for name in names]
+    rows = [bench.measure(GFB, folder, name, fine[name]) for name in bench.SCENES]
     for row in rows:
         checks.that(f"{row['name']}, {row['quantity']}: true error {row['error']:.1e} <= estimate {row['estimate']:.1e} <= "
                     f"{row['target']:.0e} on mesh {row['meshes']}", row["error"] <= row["estimate"] <= row["target"] and row["met"])
@@ -154,19 +150,7 @@ def check_coverage(checks, folder, names):
 
 
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        if "--long" in sys.argv:
-            check_coverage(checks, folder, [name for name in bench.SCENES if name not in COVERED])
-            checks.close()
-            return
-        check_coverage(checks, folder, COVERED)
-        check_rows(checks, folder)
-        check_finest(checks, folder)
-        check_refusals(checks, folder)
-        check_strip(checks, folder)
-        check_beams(checks, folder)
-    checks.close()
+    run_checks((check_rows, check_finest, check_refusals, check_strip, check_beams), (check_coverage,))
 
 
 if __name__ == "__main__":

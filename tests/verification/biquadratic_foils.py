@@ -4,12 +4,11 @@
 Beams tend to the limit of an independent model; ranks, half the width and turns of film and foil change nothing.
 """
 
-import tempfile
 
 import numpy
 
 from beam_bearing import CONVERGED, beams
-from gfb_run import Checks
+from gfb_run import run_checks
 from shell_bearing import BEARING, check_balance, compare, solve
 
 ORDER = {"film_order": 2}
@@ -66,11 +65,7 @@ def check_same(checks, folder):
 
 
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_same(checks, folder)
-        check_limit(checks, folder)
-    checks.close()
+    run_checks((check_limit,), (check_same,))
 
 
 if __name__ == "__main__":

@@ -6,11 +6,10 @@ thinnest film is kept away from the slit: near it the same load has two equilibr
 """
 
 import math
-import tempfile
 
 import numpy
 
-from gfb_run import Bearing, Checks, natural_sizes, run
+from gfb_run import Bearing, natural_sizes, run, run_checks
 
 POSITION = 1.0e-8   # of the clearance
 NUMBERS = (0.01, 1.0, 100.0, 1000.0)
@@ -123,14 +122,7 @@ def row_difference(rows, i, answer):
 
 
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_way_back(checks, folder)
-        check_branches(checks, folder)
-        check_loads(checks, folder)
-        check_sweeps(checks, folder)
-        check_held_sweeps(checks, folder)
-    checks.close()
+    run_checks((check_branches, check_loads, check_sweeps, check_held_sweeps), (check_way_back,))
 
 
 if __name__ == "__main__":

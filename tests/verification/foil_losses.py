@@ -205,6 +205,12 @@ def check_temperature(checks, folder):
     checks.that("their modulus is felt", largest_difference(found[2], found[0], 1.0) > 1.0e-4)
 
 
+def check_beams(checks, folder, heavy):
+    """All of it on beams, their mass left out or not."""
+    for check in (check_frequencies, check_onset, check_growth, check_circle):
+        check(checks, folder, "beam", heavy)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
@@ -220,14 +226,11 @@ def main():
             check_temperature(checks, folder)
             check_reduction(checks, folder)
             check_stops(checks, folder)
-        else:
-            for heavy in ("off", "on"):
-                check_frequencies(checks, folder, "beam", heavy)
-                check_onset(checks, folder, "beam", heavy)
-                check_growth(checks, folder, "beam", heavy)
-                check_circle(checks, folder, "beam", heavy)
-            check_onset_speed(checks, folder)
+            check_beams(checks, folder, "off")
             check_same(checks, folder)
+        else:
+            check_beams(checks, folder, "on")
+            check_onset_speed(checks, folder)
     checks.close()
 
 

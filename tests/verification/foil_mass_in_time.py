@@ -6,16 +6,13 @@ Small orbits are tiny against the gaps of open contacts, and without friction: t
 the sleeve's sudden start dies out slowly, so the harmonic is read through a window.
 """
 
-import pathlib
-import sys
-import tempfile
 
 import numpy
 
 from dynamics import FOIL_BEARING, beams, vibrate
 from dynamics_foils import shells
 from dynamics_mass import heavy
-from gfb_run import Checks, case_groups, largest_difference, solve
+from gfb_run import case_groups, largest_difference, run_checks, solve
 from restart import check_march
 from rotor import speed_of
 from transient import TIGHT, history, plane
@@ -120,11 +117,7 @@ def check_beams(checks, folder):
 
 
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        for check in (check_shells, check_stops) if "--long" in sys.argv else (check_force, check_beams):
-            check(checks, pathlib.Path(folder))
-    checks.close()
+    run_checks((check_beams,), (check_force, check_shells, check_stops))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import math
 import os
 import pathlib
 import sys
+import tempfile
 
 import numpy
 
@@ -152,3 +153,12 @@ class Checks:
         """Ends the script."""
         print(f"{self.passed} passed, {self.failed} failed")
         sys.exit(1 if self.failed or not self.passed else 0)
+
+
+def run_checks(quick, slow):
+    """A script's checks(checks, folder): the quick ones, with --long the slow ones and nothing else."""
+    checks = Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        for check in slow if "--long" in sys.argv[1:] else quick:
+            check(checks, pathlib.Path(folder))
+    checks.close()

@@ -7,12 +7,10 @@ turned around, vibrations and motions at temperatures that stay, foils that soft
 import json
 import math
 import pathlib
-import sys
-import tempfile
 
 import numpy
 
-from gfb_run import Checks, largest_difference, observed_order, solve
+from gfb_run import largest_difference, observed_order, run_checks, solve
 from small_motions import RADIUS, harmonic
 from transient import TIGHT, history
 
@@ -224,23 +222,20 @@ def check_capacity(checks, folder):
     checks.that(f"load capacity {limit['load_capacity']:.2f} N, at the limit", limit["limit_reached"] and limit["load_capacity"] > 150.0)
 
 
+def check_few(checks, folder):
+    """The reference's main rows on bilinear films."""
+    check_reference(checks, folder, FEW, 1)
+
+
+def check_many(checks, folder):
+    """Its other rows, and all on biquadratic films."""
+    check_reference(checks, folder, [name for name in BY_NAME if name not in FEW], 1)
+    check_reference(checks, folder, BY_NAME, 2)
+
+
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        if "--long" in sys.argv:
-            check_reference(checks, folder, [name for name in BY_NAME if name not in FEW], 1)
-            check_reference(checks, folder, BY_NAME, 2)
-            check_capacity(checks, folder)
-            checks.close()
-        check_reference(checks, folder, FEW, 1)
-        check_order(checks, folder)
-        check_isothermal(checks, folder)
-        check_couette(checks, folder)
-        check_same(checks, folder)
-        check_motion(checks, folder)
-        check_modulus(checks, folder)
-        check_accuracy(checks, folder)
-    checks.close()
+    run_checks((check_few, check_order, check_isothermal, check_couette, check_same, check_motion, check_accuracy),
+               (check_many, check_capacity, check_modulus))
 
 
 if __name__ == "__main__":

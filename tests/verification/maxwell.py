@@ -6,12 +6,11 @@ the rotor's modes, a small orbit over time, and what must not matter.
 import math
 import pathlib
 import random
-import tempfile
 
 import numpy
 
 from dynamics import RING, SPRINGS, block_error, concentric, vibrate
-from gfb_run import Bearing, Checks, case_groups, observed_order, solve, write_case
+from gfb_run import Bearing, case_groups, observed_order, run_checks, solve, write_case
 from restart import bearing, check_kills, run_time
 from rotor import modes_of, nearest_root, ring_matrix, speed_of
 from transient import ORDER, TIGHT, foil_case, history, modes_in, plane
@@ -181,16 +180,7 @@ def check_same(checks, folder):
 
 def main():
     """All checks."""
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_ring(checks, folder)
-        check_limits(checks, folder)
-        check_modes(checks, folder)
-        check_threshold(checks, folder)
-        check_orbit(checks, folder)
-        check_growth(checks, folder)
-        check_same(checks, folder)
-    checks.close()
+    run_checks((check_ring, check_limits, check_modes, check_threshold, check_orbit), (check_growth, check_same))
 
 
 if __name__ == "__main__":

@@ -121,9 +121,9 @@ def main():
                 check_fine(checks, folder, name)
             if "PT2" in sys.argv:
                 check_limit_cycle(checks, folder)
+                check_foil(checks, folder)
         else:
             check_coarse(checks, folder)
-            check_foil(checks, folder)
     checks.close()
 
 

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """Strips side by side with sizes of their own: the sum of the single strips; equal values as today's."""
 
-import tempfile
 
 import h5py
 import numpy
 
 from bump_sizes import BEARING, bearing, run_strip
-from gfb_run import Checks, largest_difference, natural_sizes, summary_difference
+from gfb_run import largest_difference, natural_sizes, run_checks, summary_difference
 from split_strips import CUT, SUMS
 from strips import FOIL, MICROMETRE
 
@@ -124,13 +123,7 @@ def check_bearings(checks, folder):
 
 
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_sums(checks, folder)
-        check_kinks(checks, folder)
-        check_equal(checks, folder)
-        check_bearings(checks, folder)
-    checks.close()
+    run_checks((check_kinks, check_equal, check_bearings), (check_sums,))
 
 
 if __name__ == "__main__":

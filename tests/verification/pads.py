@@ -5,12 +5,11 @@ of one, symmetry, ranks, a restart."""
 import json
 import math
 import pathlib
-import tempfile
 
 import numpy
 
 from sample import normal
-from gfb_run import Checks, largest_difference, observed_order, solve
+from gfb_run import largest_difference, observed_order, run_checks, solve
 
 REFERENCE = json.loads((pathlib.Path(__file__).parent/"reference"/"pads.json").read_text(encoding="utf-8"))["cases"]
 TURN = 2.0*math.pi/3.0
@@ -243,12 +242,8 @@ def check_sweep(checks, folder):
 
 
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        for check in (check_reference, check_order, check_preload, check_three, check_heights, check_turns, check_free_edges, check_branches,
-                      check_bore, check_film, check_sweep):
-            check(checks, folder)
-    checks.close()
+    run_checks((check_reference, check_order, check_preload, check_three, check_heights, check_turns, check_bore, check_film, check_sweep),
+               (check_free_edges, check_branches))
 
 
 if __name__ == "__main__":

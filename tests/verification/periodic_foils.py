@@ -4,12 +4,11 @@ same steps, and against themselves one turn later; multipliers of the rotor's mo
 """
 
 import cmath
-import tempfile
 
 import numpy
 
 from dynamics import beams
-from gfb_run import Bearing, Checks, case_groups, largest_difference, solve
+from gfb_run import Bearing, case_groups, largest_difference, run_checks, solve
 from periodic import orbits
 from rotor import modes_of, speed_of
 from transient import history, stepped
@@ -99,13 +98,13 @@ def check_starts(checks, folder, friction, limits, keys):
     return ends[0]
 
 
+def check_march_of_beams(checks, folder):
+    """Orbits that close against steps in time, on beams."""
+    check_march(checks, folder, "beams", 60)
+
+
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_modes(checks, folder)
-        check_march(checks, folder, "beams", 60)
-        check_friction(checks, folder)
-    checks.close()
+    run_checks((check_modes, check_march_of_beams), (check_friction,))
 
 
 if __name__ == "__main__":

@@ -11,12 +11,10 @@ import functools
 import json
 import math
 import pathlib
-import sys
-import tempfile
 
 import numpy
 
-from gfb_run import Bearing, Checks, largest_difference, observed_order, run
+from gfb_run import Bearing, largest_difference, observed_order, run, run_checks
 
 MESHES = ((104, 32), (208, 64), (416, 128))
 ORDER = (1.8, 2.2)
@@ -52,8 +50,10 @@ def check_invariant(checks, folder):
         checks.within(f"{words}: order", observed_order(errors[-2], errors[-1]), *ORDER)
 
 
-def check_tables(checks, folder, exact):
+def check_tables(checks, folder):
     """The two tables: Lambda 1 at four eccentricities, eps 0.5 at seven Lambda."""
+    path = pathlib.Path(__file__).resolve().parent/"reference"/"film_rigid.json"
+    exact = json.loads(path.read_text(encoding="utf-8"))["exact"]
     table = exact["periodic_Lam1_LD1"]
     unit = RING.ambient_pressure*RING.radius**2
     for eps, force, attitude in zip(table["eps"], table["W_over_pa_R2"], table["attitude_deg"]):
@@ -112,17 +112,7 @@ def check_direction(checks, folder):
 
 
 def main():
-    path = pathlib.Path(__file__).resolve().parent/"reference"/"film_rigid.json"
-    exact = json.loads(path.read_text(encoding="utf-8"))["exact"]
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        if "--long" in sys.argv:
-            check_limit(checks, folder)
-        else:
-            check_invariant(checks, folder)
-            check_tables(checks, folder, exact)
-            check_direction(checks, folder)
-    checks.close()
+    run_checks((check_invariant, check_direction), (check_tables, check_limit))
 
 
 if __name__ == "__main__":

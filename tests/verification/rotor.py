@@ -327,10 +327,10 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
         if "--long" not in sys.argv:
-            check_foil_mass(checks, folder)
             check_foil_peak(checks, folder)
             check_onset_with_losses(checks, folder)
             checks.close()
+        check_foil_mass(checks, folder)
         check_growth(checks, folder)
         check_onset(checks, folder)
         check_ring(checks, folder)

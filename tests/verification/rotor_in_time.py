@@ -216,7 +216,7 @@ def check_files(checks, folder):
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
-        for name in sys.argv[1:] or ["alike", "apart", "free", "balance", "modes", "foils", "files"]:
+        for name in sys.argv[1:] or ["alike", "apart", "free", "balance", "modes", "files"]:
             globals()["check_" + name](checks, folder)
     checks.close()
 

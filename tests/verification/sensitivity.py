@@ -2,9 +2,8 @@
 """Sensitivities by the adjoint: against differences of whole answers, the sums that dimensions demand, sweeps, ranks."""
 
 import math
-import tempfile
 
-from gfb_run import Checks, solve
+from gfb_run import run_checks, solve
 
 LIMIT = 1.0e-6      # relative, of a derivative against differences
 CENTRAL = {1: 0.5, -1: -0.5}  # weights of the answers that many steps away: second order
@@ -221,14 +220,7 @@ def check_tolerances_and_sweep(checks, folder):
 
 def main():
     """Runs all checks."""
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_film(checks, folder)
-        check_tolerances_and_sweep(checks, folder)
-        check_heat(checks, folder)
-        check_foils(checks, folder)
-        check_lists(checks, folder)
-    checks.close()
+    run_checks((check_film, check_tolerances_and_sweep, check_foils), (check_heat, check_lists))
 
 
 if __name__ == "__main__":

@@ -12,14 +12,12 @@ lambda = (3 - 4/z + 1/z^2)/(2 D): a growth rate is compared without any error of
 import json
 import math
 import pathlib
-import sys
-import tempfile
 
 import h5py
 import numpy
 
 from dynamics import FOIL_BEARING, RING, beams
-from gfb_run import Checks, case_groups, largest_difference, observed_order, solve
+from gfb_run import case_groups, largest_difference, observed_order, run_checks, solve
 from rotor import modes_of, rotor_case, speed_of
 
 ORBITS = json.loads((pathlib.Path(__file__).parent/"reference/orbits.json").read_text(encoding="utf-8"))["orbits"]
@@ -452,23 +450,8 @@ def check_orbits(checks, folder):
 
 
 def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        if "--long" in sys.argv:
-            check_orbits(checks, folder)
-        else:
-            check_ring(checks, folder)
-            check_unbalance(checks, folder)
-            check_growth(checks, folder)
-            check_beams(checks, folder)
-            check_same(checks, folder)
-            check_steps(checks, folder)
-            check_touch_down(checks, folder)
-            check_lines(checks, folder)
-            check_steady(checks, folder)
-            check_friction(checks, folder)
-            check_start(checks, folder)
-    checks.close()
+    run_checks((check_ring, check_unbalance, check_growth, check_beams, check_same, check_steps, check_touch_down, check_start),
+               (check_orbits, check_lines, check_steady, check_friction))
 
 
 if __name__ == "__main__":

@@ -2,9 +2,8 @@
 """Derivatives of critical mass and whirl ratio: against differences of whole answers for every foil, the sums that dimensions demand,
 condensed bumps, ranks, sweeps, and where there are none."""
 
-import tempfile
 
-from gfb_run import Checks, solve
+from gfb_run import run_checks, solve
 from sensitivity import FILM_KEYS, LIMIT, SPRINGS, check_differences, check_sum, derived, foils, slope_name, with_keys
 
 NAMES = ("critical_mass", "whirl_ratio")
@@ -125,13 +124,7 @@ def check_sweep_and_none(checks, folder):
 
 def main():
     """Runs all checks."""
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_springs(checks, folder)
-        check_foils(checks, folder)
-        check_gaps(checks, folder)
-        check_sweep_and_none(checks, folder)
-    checks.close()
+    run_checks((check_springs, check_gaps, check_sweep_and_none), (check_foils,))
 
 
 if __name__ == "__main__":
