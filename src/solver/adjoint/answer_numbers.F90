@@ -176,16 +176,15 @@ contains
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(stress_place_type), intent(in) :: place(:)
     real(wp), intent(inout) :: stress(:) !! one a surface [Pa]
-    integer :: i, k
+    logical :: here(size(place))
+    integer :: i
 
     do i = 1, size(bearing%pad)
-      if (all(place%pad /= i)) cycle
+      here = place%pad == i
+      if (.not. any(here)) cycle
       associate (pad => bearing%pad(i))
-        associate (here => bearing%modulus(i, unknown)*stress_at(pad%foil, place, unknown(pad%first + 1:pad%last)))
-          do k = 1, size(place)
-            if (place(k)%pad == i) stress(k) = here(k)
-          end do
-        end associate
+        stress = stress + bearing%modulus(i, unknown)* &
+          unpack(stress_at(pad%foil, pack(place, here), unknown(pad%first + 1:pad%last)), here, 0.0_wp)
       end associate
     end do
   end subroutine measure_stresses
