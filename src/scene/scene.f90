@@ -19,7 +19,7 @@ module gfb_scene
                               read_transient_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
-  use gfb_model_case, only: model_case_type, foil_plate, meshes_foils, read_model_case
+  use gfb_model_case, only: model_case_type, foil_plate, foil_shell, meshes_foils, read_model_case
   use gfb_operation_case, only: operation_case_type, read_operation_case, size_of_gap
   use gfb_scene_case, only: scene_case_type, needs_type, analysis_strip, read_scene_case, &
                             is_bearing, misplaced_group, analysis_modes, analysis_misalignment
@@ -125,7 +125,7 @@ contains
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)
       call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
-      call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present)
+      call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present, scene%model%foil == foil_shell)
       call read_output_case(keys, scene%output)
       call read_sensitivity_case(keys, scene%sensitivity, analysis)
       call read_accuracy_case(keys, scene%accuracy, analysis)

@@ -222,6 +222,35 @@ def check_capacity(checks, folder):
     checks.that(f"load capacity {limit['load_capacity']:.2f} N, at the limit", limit["limit_reached"] and limit["load_capacity"] > 150.0)
 
 
+def check_no_way_out(checks, folder):
+    """Where walls and gas cannot take what the film makes, that is said without a search; at a lower speed there is an answer."""
+    groups = {"scene": {"analysis": "fixed_position"}, "bearing": {"radius": 0.01905, "length": 0.0381, "clearance": 31.8e-6},
+              "gas": {"ambient_pressure": 1.0135e5, "viscosity_law": "sutherland"}, "model": {"foil": "rigid"},
+              "operation": {"speed_rpm": 30000.0, "eccentricity": (1.5e-5, 5.0e-6)}, "top_foil": {"thickness": 1.0e-4},
+              "thermal": {"ambient_temperature": 293.15, "shaft_conductance": 0.0, "sleeve": "given", "sleeve_temperature": 293.15,
+                          "bump_conductance": 1.0, "carry_over": 0.0}, "mesh": {"circumferential_elements": 60, "axial_elements": 8}}
+    answer = solve(folder, "no_way", groups, status=2)
+    checks.that("no steady temperature, said with what is made and what leaves", "no steady temperature below 2000 K (thermal runaway)" in answer.log
+                and " W of heat and gas and walls take " in answer.log and answer["factorizations"] < 10)
+    solve(folder, "way", changed(groups, operation={"speed_rpm": 12000.0}))
+
+
+def check_refusal(checks, folder):
+    """A runaway of three rigid pads is told as one, with how far heat led, at a few answers' cost; the last state is an answer."""
+    groups = {"scene": {"analysis": "equilibrium"}, "bearing": {"radius": 0.024, "length": 0.0302, "clearance": 5.95e-5},
+              "gas": {"ambient_pressure": 3.0e5, "viscosity_law": "sutherland"}, "model": {"foil": "rigid"},
+              "operation": {"speed_rpm": 134000.0, "load": (528.0, 24.0)}, "top_foil": {"thickness": 1.0e-4},
+              "pads": {"count": 3, "arc": 1.9, "preload": 0.21}, "mesh": {"circumferential_elements": 64, "axial_elements": 16},
+              "thermal": {"ambient_temperature": 500.0, "shaft_conductance": 1.4, "sleeve_conductance": 7.26, "bump_conductance": 279.0,
+                          "shaft_expansion": 1.03e-5, "sleeve_expansion": 1.45e-5}}
+    refused = solve(folder, "runaway", groups, status=2)
+    spent = refused["factorizations"]
+    checks.that(f"a runaway after {spent:.0f} factorizations", "(thermal runaway)" in refused.log and "last state " in refused.log
+                and "shaft " in refused.log.split("last state ")[1] and spent < 250)
+    answer = solve(folder, "slower", changed(groups, operation={"speed_rpm": 60000.0, "load": (200.0, 10.0)}))
+    checks.that(f"beside {answer['factorizations']:.0f} of an answer", answer["factorizations"] < 40)
+
+
 def check_few(checks, folder):
     """The reference's main rows on bilinear films."""
     check_reference(checks, folder, FEW, 1)
@@ -234,7 +263,8 @@ def check_many(checks, folder):
 
 
 def main():
-    run_checks((check_few, check_order, check_isothermal, check_couette, check_same, check_motion, check_accuracy),
+    run_checks((check_few, check_order, check_isothermal, check_couette, check_same, check_motion, check_accuracy,
+                check_no_way_out, check_refusal),
                (check_many, check_capacity, check_modulus))
 
 

@@ -28,6 +28,7 @@ module gfb_heat_answer
     real(wp) :: through_bumps = 0.0_wp, to_channel = 0.0_wp !! out of the top foil [W]
     real(wp) :: by_gas = 0.0_wp                   !! carried out less carried in [W]
     real(wp) :: leading = 0.0_wp, trailing = 0.0_wp, sides = 0.0_wp !! flow in, out, out [kg/s]
+    real(wp) :: area = 0.0_wp, mean_gap = 0.0_wp !! of the film [m2], [m]
     real(wp) :: modulus(2) = 1.0_wp !! of top foil and bumps over the typed ones; of all pads the mean [1]
   end type heat_share_type
 
@@ -174,6 +175,6 @@ contains
                             top_foil_temperature=sum_of(4)/sum_of(3), maximum_top_foil_temperature=most(2), &
                             inlet_temperature=inlet, power=sum_of(5), to_shaft=sum_of(6), to_top_foil=sum_of(7), &
                             through_bumps=sum_of(8), to_channel=sum_of(9), by_gas=sum_of(10), leading=sum_of(11), &
-                            trailing=sum_of(12), sides=sum_of(15))
+                            trailing=sum_of(12), sides=sum_of(15), area=sum_of(3), mean_gap=sum_of(2)/sum_of(3))
   end function share_of
 end module gfb_heat_answer

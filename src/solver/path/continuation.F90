@@ -16,7 +16,7 @@ module gfb_continuation
   use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
   use gfb_bordered_system, only: bordered_system_type, create_bordered_system, destroy_bordered_system
   use gfb_ending, only: path_reached, path_touches, path_closes, path_folds, path_empties, path_lost, path_settings_type, &
-                        path_report_type
+                        path_report_type, heat_trail_type
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -47,7 +47,7 @@ module gfb_continuation
   integer, parameter :: most_smooth_moves = 600    !! without contacts, where moves cost next to nothing
   integer, parameter :: easy_iterations = 6        !! a move that took no more of them is doubled
 
-  integer, parameter :: max_iterations = 20          !! of a step or move that can be cut
+  integer, parameter :: max_iterations = 20          !! of a move, which can be cut
   real(wp), parameter :: shortest_first = 0.01_wp    !! least step over the first one [1]
   integer, parameter :: closing_steps = 40           !! more, where the gap is closing
   integer, parameter :: most_rescues = 4             !! of a path on which no step leads on
@@ -68,6 +68,8 @@ module gfb_continuation
     integer :: rescues = 0
     logical :: folds = .false.         !! the branch turns back
     logical :: stopped = .false.       !! the search has to end
+    real(wp) :: failed = 2.0_wp        !! parameter of the last trial that failed
+    type(heat_trail_type) :: heat      !! of the last answers
     character(len=:), allocatable :: why !! the last trial has failed
     Vec :: here, before                !! last two answers
   contains
@@ -253,9 +255,13 @@ contains
     PetscCallA(VecCopy(bearing%state, path%here, ierr))
     ! A path that is long against its beginning needs steps that are small against the path.
     smallest = min(settings%smallest_step, shortest_first*first_step)
+    if (settings%smallest_share > 0.0_wp) smallest = settings%smallest_step ! it is measured by its own way
     path%smallest = smallest
+    call feel_heat(path, 0.0_wp)
     call follow_steps(path, step_rules_type(first_step=min(1.0_wp, max(first_step, smallest)), smallest_step=smallest, &
-                                            easy_iterations=easy_iterations, grows_at_once=.false.), ending)
+                                            smallest_share=settings%smallest_share, easy_iterations=easy_iterations, &
+                                            grows_at_once=.false.), ending)
+    report%heat = path%heat
     report%reached = path%reached
     report%fraction = path%at
     report%steps = path%steps
@@ -293,6 +299,7 @@ contains
     converged = solved%converged
     iterations = solved%iterations
     self%why = solved%reason
+    if (.not. converged) self%failed = trial
   end subroutine try_point
 
   !> Saves an answer.
@@ -305,7 +312,21 @@ contains
     PetscCallA(VecCopy(self%bearing%state, self%here, ierr))
     self%at_before = self%at
     self%reached = self%bearing%point
+    call feel_heat(self, trial)
   end subroutine accept_point
+
+  !> Keeps how hot the film of an answer is, as the gas feels it.
+  subroutine feel_heat(path, at)
+    type(point_path_type), intent(inout) :: path
+    real(wp), intent(in) :: at !! parameter of the answer [1]
+    type(bearing_answer_type) :: answer
+
+    associate (heat => path%bearing%heat, growth => path%bearing%point%growth)
+      if (.not. heat%present) return
+      answer = bearing_answer(path%bearing, brief=.true.)
+      call path%heat%add(at, heat%ambient + growth*(answer%heat%whole%maximum_film_temperature - heat%ambient))
+    end associate
+  end subroutine feel_heat
 
   !> Goes back to the last answer.
   subroutine restore_point(self)
@@ -439,7 +460,7 @@ contains
     straight = newton%settings%straight_steps
     newton%settings%straight_steps = min(straight, settings%straight_steps)
     allowed = newton%settings%maximum_iterations
-    if (may_be_cut) newton%settings%maximum_iterations = min(allowed, max_iterations)
+    if (may_be_cut .or. settings%smallest_share > 0.0_wp) newton%settings%maximum_iterations = min(allowed, settings%trial_iterations)
     call solve_newton(newton, solved)
     newton%settings%maximum_iterations = allowed
     newton%settings%straight_steps = straight
@@ -455,11 +476,11 @@ contains
 
     mover = 'shaft'
     if (path%bearing%has_contacts()) mover = 'top foil'
-    if (path%bearing%heat%grows()) mover = 'temperature (thermal runaway) or the '//mover
+    if (path%bearing%heat%present) mover = 'temperature (thermal runaway) or the '//mover
     answer = bearing_answer(path%bearing)
     if (is_closing(path%bearing) .and. .not. spent) then
       report%ending = path_closes(answer%minimum_gap, report%ending)
-    else if (path%folds) then
+    else if (path%folds .or. path%heat%turns(path%failed)) then
       report%ending = path_folds(mover)
     else if (is_emptied(path%bearing, answer)) then
       report%ending = path_empties(answer%minimum_pressure, answer%minimum_gap, answer%maximum_peclet)

@@ -1,4 +1,4 @@
-!> How far a path of states leads, and how it ends: one of seven ways. What is said of each is
+!> How far a path of states leads, and how it ends: one of eight ways. What is said of each is
 !> written here alone, but for what a search that is lost says of its last step.
 module gfb_ending
   use gfb_kinds, only: wp
@@ -9,7 +9,7 @@ module gfb_ending
   implicit none (type, external)
   private
   public :: path_reached, path_touches, path_touches_at, path_thins, path_closes, path_folds
-  public :: path_empties, path_is_drawn, path_stopped, path_lost
+  public :: path_empties, path_is_drawn, path_heats_up, path_stopped, path_lost
 
   integer, parameter, public :: ending_lost = 0       !! nothing shows why no step leads on
   integer, parameter, public :: ending_reached = 1    !! the state asked for
@@ -18,6 +18,7 @@ module gfb_ending
   integer, parameter, public :: ending_emptied = 4    !! the film's pressure falls to nothing
   integer, parameter, public :: ending_suction = 5    !! the film draws the free edge to the shaft
   integer, parameter, public :: ending_stopped = 6    !! before anything was shown
+  integer, parameter, public :: ending_heated = 7     !! more heat is made than can leave
 
   !> An ending.
   type, public :: ending_type
@@ -37,7 +38,18 @@ module gfb_ending
     !> Of any scaled unknown, where the branch is lost; farther off lies another one [1].
     real(wp) :: longest_leap = 0.05_wp
     integer :: straight_steps = huge(1)   !! Newton's, before they are bent at contacts
+    real(wp) :: smallest_share = 0.0_wp   !! of a step, over the way that is gone [1]
+    integer :: trial_iterations = 20      !! Newton's, of a step that can be cut
   end type path_settings_type
+
+  !> How hot a film is at the last answers of a path.
+  type, public :: heat_trail_type
+    integer :: answers = 0
+    real(wp) :: at(3) = 0.0_wp          !! where they are on the path, the last one last [1]
+    real(wp) :: temperature(3) = 0.0_wp !! largest of the film there, as the gas feels it [K]
+  contains
+    procedure :: add => add_temperature, turns
+  end type heat_trail_type
 
   !> How far a path led.
   type, public :: path_report_type
@@ -48,6 +60,7 @@ module gfb_ending
     integer :: cuts = 0                       !! steps that had to be shortened
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
     logical :: of_smaller = .false.           !! the ending is a smaller mesh's, not shown here
+    type(heat_trail_type) :: heat             !! how hot the film has become along it
   contains
     procedure :: converged, has_cause => report_has_cause, reason
   end type path_report_type
@@ -73,7 +86,7 @@ contains
   !> Whether the path ended for a cause in the bearing, rather than in Newton's method.
   elemental logical function has_cause(self) result(has)
     class(ending_type), intent(in) :: self !! of a path
-    has = any(self%kind == [ending_touch_down, ending_fold, ending_emptied, ending_suction])
+    has = any(self%kind == [ending_touch_down, ending_fold, ending_emptied, ending_suction, ending_heated])
   end function has_cause
 
   !> An ending with its words. GNU Fortran 12 loses the memory of words that are put together
@@ -161,6 +174,18 @@ contains
                          text(least, 2)//' N or more')
   end function path_is_drawn
 
+  !> The film makes more heat than can leave at any temperature.
+  pure function path_heats_up(hottest, temperature, made, out) result(ending)
+    real(wp), intent(in) :: hottest     !! temperature that was looked at [K]
+    real(wp), intent(in) :: temperature !! at which the most of it leaves [K]
+    real(wp), intent(in) :: made, out   !! heat that is made there, and that leaves [W]
+    type(ending_type) :: ending
+
+    ending = ending_of(ending_heated, 'no steady temperature below '//text(hottest, 4)// &
+                         ' K (thermal runaway): at '//text(temperature, 3)//' K, where the most of it leaves, the film makes '// &
+                         text(made, 3)//' W of heat and gas and walls take '//text(out, 3)//' W')
+  end function path_heats_up
+
   !> A signal asks for the end, or all work that is allowed is done: nothing has been shown.
   pure function path_stopped() result(ending)
     type(ending_type) :: ending
@@ -173,6 +198,36 @@ contains
     type(ending_type) :: ending
     ending = ending_of(ending_lost, last)
   end function path_lost
+
+  !> Adds an answer.
+  pure subroutine add_temperature(self, at, temperature)
+    class(heat_trail_type), intent(inout) :: self !! the trail
+    real(wp), intent(in) :: at          !! where it is on the path [1]
+    real(wp), intent(in) :: temperature !! [K]
+
+    self%answers = self%answers + 1
+    self%at = [self%at(2:), at]
+    self%temperature = [self%temperature(2:), temperature]
+  end subroutine add_temperature
+
+  !> Whether the path turns back before a place where there was no answer: the parabola through the last three answers, the
+  !> path's parameter over the temperature, has its highest point short of it.
+  pure logical function turns(self, failed)
+    class(heat_trail_type), intent(in) :: self !! the trail
+    real(wp), intent(in) :: failed !! that place [1]
+    real(wp) :: first, second, bend, top
+
+    turns = .false.
+    associate (at => self%at, t => self%temperature)
+      if (self%answers < 3 .or. min(t(2) - t(1), t(3) - t(2)) <= 0.0_wp) return
+      first = (at(2) - at(1))/(t(2) - t(1))
+      second = (at(3) - at(2))/(t(3) - t(2))
+      bend = (second - first)/(t(3) - t(1))
+      if (.not. bend < 0.0_wp) return
+      top = t(3) - 0.5_wp*(second + bend*(t(3) - t(2)))/bend ! where the slope, second + bend (t3 - t2) at t3, is none
+      turns = at(3) + (second + bend*(t(3) - t(2)))*(top - t(3)) + bend*(top - t(3))**2 < failed
+    end associate
+  end function turns
 
   !> Whether the path led to the point that was asked for.
   elemental logical function converged(self)

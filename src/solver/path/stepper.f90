@@ -21,6 +21,7 @@ module gfb_stepper
     real(wp) :: last = 1.0_wp            !! where the path ends
     real(wp) :: first_step = 1.0_wp
     real(wp) :: smallest_step = 0.0_wp   !! a shorter one is not tried
+    real(wp) :: smallest_share = 0.0_wp  !! the same, of the way that is gone [1]
     real(wp) :: growth = 2.0_wp          !! of a step that was easy [1]
     integer :: easy_iterations = huge(1) !! a step that took no more of them was easy
     logical :: grows_at_once = .true.    !! also the first step after one that was cut
@@ -76,7 +77,7 @@ contains
     class(path_problem_type), intent(inout) :: problem !! at an answer; left at the last one
     type(step_rules_type), intent(in) :: rules !! of its steps
     integer, intent(out) :: ending !! one of those above
-    real(wp) :: step, trial
+    real(wp) :: step, trial, smallest
     integer :: iterations
     logical :: converged, easy, just_cut, continues
 
@@ -88,7 +89,8 @@ contains
       if (.not. problem%has_steps()) exit
       trial = problem%at + step
       if (trial >= min(rules%last, rules%leap_from)) trial = rules%last
-      call problem%try(trial, step >= 2.0_wp*rules%smallest_step, converged, iterations)
+      smallest = max(rules%smallest_step, rules%smallest_share*problem%at)
+      call problem%try(trial, step >= 2.0_wp*smallest, converged, iterations)
       if (converged) then
         call problem%accept(trial)
         problem%at = trial
@@ -107,7 +109,7 @@ contains
         if (problem%gives_up()) exit
         if (rules%cuts_the_trial) step = min(step, trial - problem%at)
         step = 0.5_wp*step
-        if (step >= rules%smallest_step) cycle
+        if (step >= smallest) cycle
         call problem%rescue(step, continues)
         ending = steps_too_short
         if (.not. continues) exit

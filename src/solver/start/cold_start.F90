@@ -3,6 +3,9 @@
 !>
 !> A scene is solved on smaller systems first, from the coarsest that `smaller_start.F90` finds to its own. Each starts from
 !> the answer of the one before, and from nothing only if that fails: `start_list.F90` has the starts, in order.
+!>
+!> With heat the first mesh that has an answer at ambient temperature is heated, `heat_start.F90`; all finer ones begin hot,
+!> and a refusal with heat is shown on them from the state where it ended, never searched again.
 module gfb_cold_start
   use gfb_kinds, only: wp
   use gfb_ending, only: ending_lost, ending_stopped, ending_fold, ending_emptied
@@ -14,17 +17,16 @@ module gfb_cold_start
   use gfb_film_surface, only: translations
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_heat_switch, only: add_heat
-  use gfb_bearing_heat, only: film_heat_type
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: build_bearing, heat_of
-  use gfb_newton, only: newton_type, newton_settings_type, create_newton, renew_newton, destroy_newton
-  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
+  use gfb_continuation, only: path_settings_type, path_report_type
+  use gfb_heat_start, only: heat_up, carry_heat, show_heat
   use gfb_start_problem, only: start_problem_type, drop_bearing, count_spent
   use gfb_saved_state, only: saved_state_type
   use gfb_start_list, only: start_pressed
-  use gfb_start_position, only: solve_at
   use gfb_branch_search, only: seek_branch
+  use gfb_bearing_heat, only: film_heat_type
   use gfb_smaller_start, only: find_smaller, find_between, lies_between
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
@@ -35,6 +37,14 @@ module gfb_cold_start
 
   integer, parameter :: most_meshes = 24 !! each has half the elements of the next one at least, or lies between two
 
+  !> What is searched, and how.
+  type :: request_type
+    type(operating_point_type) :: target !! the scene's, or the first of its sweep
+    type(newton_settings_type) :: newton !! when Newton's method stops
+    type(path_settings_type) :: path     !! limits of a path
+    type(run_log_type) :: log            !! gets the lines of progress
+  end type request_type
+
   !> A mesh between the coarsest and the scene's, with its equations.
   type :: mesh_type
     type(scene_type) :: scene
@@ -43,12 +53,15 @@ module gfb_cold_start
     type(newton_type), pointer :: newton => null()
     type(path_report_type) :: report !! of its search
     logical :: divided = .false.     !! another one has been put between it and the one before
+    logical :: heated = .false.      !! its state is one with heat
     type(saved_state_type) :: anchor  !! a state to show a refusal from on the next mesh, too
   end type mesh_type
 
 contains
 
-  !> The first answer of a scene, with heat or without it. A bearing that there is already is built anew.
+  !> Builds a scene's equations and finds their answer at an operating point, with heat or without it, on smaller meshes first.
+  !> Where the answer of one with few rows does not lead to the next, one with half the rows is put in between. A bearing that
+  !> there is already is built anew, and what was spent on it counts.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
   subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
@@ -62,35 +75,13 @@ contains
     type(newton_type), target, intent(inout) :: newton          !! its solver, is created
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
-
-    if (scene%thermal%present) then
-      call start_heated(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    else
-      call start_cold(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    end if
-  end subroutine start_bearing
-
-  !> Builds a scene's equations and finds their answer at an operating point, on smaller meshes first. Where the answer of one
-  !> with few rows does not lead to the next, one with half the rows is put in between. A bearing that there is already is built
-  !> anew, and what was spent on it counts.
-  !>
-  !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  subroutine start_cold(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    type(bearing_plan_type), intent(in) :: plan          !! its meshes
-    type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
-    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
-    type(path_settings_type), intent(in) :: path_settings !! limits of a path
-    type(run_log_type), intent(in) :: log !! gets the lines of progress
-    type(bearing_system_type), target, intent(inout) :: bearing !! is built
-    type(newton_type), target, intent(inout) :: newton          !! its solver, is created
-    type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
-    type(error_type), allocatable, intent(out) :: error !! why it could not be done
+    type(request_type) :: request
     type(mesh_type), allocatable, target :: mesh(:) ! the scene's is the first
     integer, allocatable :: left(:) ! numbers of the meshes that are still to be searched, the next one last
     integer :: last, meshes, spent(3), spent_before(3)
     logical :: between, smaller
 
+    request = request_type(target, newton_settings, path_settings, log)
     spent_before = 0
     if (newton%created) call drop_bearing(bearing, newton, spent_before)
     allocate (mesh(most_meshes))
@@ -98,9 +89,8 @@ contains
     mesh(1)%plan = plan
     mesh(1)%bearing => bearing
     mesh(1)%newton => newton
-    call build_bearing(scene, plan, bearing, error)
+    if (.not. scene%thermal%present) call build_mesh(request, mesh(1), .false., error)
     if (allocated(error)) return
-    call create_newton(newton, bearing, 'bearing_', newton_settings, log)
     left = [1]
     meshes = 1
     do while (meshes < most_meshes)
@@ -113,14 +103,9 @@ contains
     spent = 0
     do while (size(left) > 0)
       associate (here => mesh(left(size(left))))
-        if (.not. associated(here%bearing)) then
-          allocate (here%bearing, here%newton)
-          call build_bearing(here%scene, here%plan, here%bearing, error)
-          if (allocated(error)) return
-          call create_newton(here%newton, here%bearing, 'bearing_', newton_settings, log)
-        end if
-        call log%stage('film '//text(here%plan%circumferential)//' x '//text(here%plan%axial))
-        call search_mesh(here, target, path_settings, log, mesh(max(last, 1)), last > 0, between)
+        if (.not. associated(here%bearing)) allocate (here%bearing, here%newton)
+        call search_mesh(request, here, mesh(max(last, 1)), last > 0, between, error)
+        if (allocated(error)) return
         if (between .and. meshes < most_meshes) then
           call log%line('no answer from that of '//text(mesh(last)%plan%axial)//' rows ('//here%report%reason()//'); half of '// &
                         text(here%plan%axial)//' first:')
@@ -139,8 +124,52 @@ contains
     spent(3) = spent(2)
     call count_spent(newton, spent + spent_before)
     report = mesh(1)%report
-    if (report%ending%kind == ending_lost .and. bearing%floats) call report%ending%add_words(lost_words(report, target), '')
-  end subroutine start_cold
+    if (any(report%ending%kind == [ending_lost, ending_stopped]) .and. bearing%floats .and. .not. mesh(1)%heated) then
+      call report%ending%add_words(lost_words(report, target), '')
+    end if
+  end subroutine start_bearing
+
+  !> Builds a mesh's equations, with the heat of its scene or at ambient temperature, where its shaft is as its speed has made it
+  !> grow; those that it has the same way stay. What was spent on others counts.
+  !>
+  !> Fails when the mesh cannot be cut.
+  subroutine build_mesh(request, mesh, hot, error)
+    type(request_type), intent(in) :: request
+    type(mesh_type), intent(inout) :: mesh
+    logical, intent(in) :: hot !! with heat
+    type(error_type), allocatable, intent(out) :: error
+    integer :: spent(3)
+
+    if (mesh%newton%created) then
+      if (mesh%bearing%heat%present .eqv. hot) return
+      call drop_bearing(mesh%bearing, mesh%newton, spent)
+    else
+      spent = 0
+    end if
+    if (hot .or. .not. mesh%scene%thermal%present) then
+      call build_bearing(mesh%scene, mesh%plan, mesh%bearing, error)
+    else
+      call build_bearing(at_ambient(mesh%scene, request%target), mesh%plan, mesh%bearing, error)
+    end if
+    if (allocated(error)) return
+    call create_newton(mesh%newton, mesh%bearing, 'bearing_', request%newton, request%log)
+    call count_spent(mesh%newton, spent)
+  end subroutine build_mesh
+
+  !> A scene with heat as it is without; lifts of an edge are those with heat.
+  function at_ambient(scene, target) result(cold)
+    type(scene_type), intent(in) :: scene !! with heat
+    type(operating_point_type), intent(in) :: target !! of it
+    type(scene_type) :: cold
+    type(film_heat_type) :: heat
+
+    heat = heat_of(scene)
+    cold = scene
+    cold%thermal%present = .false.
+    cold%operation%leading_edge_lift = [real(wp) ::]
+    cold%operation%leading_edge_lift_edge = [real(wp) ::]
+    cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
+  end function at_ambient
 
   !> Frees a smaller mesh's equations; what they have cost counts.
   subroutine drop_mesh(mesh, spent)
@@ -170,24 +199,103 @@ contains
     end if
   end function lost_words
 
-  !> Searches one mesh for the answer, from that of the mesh before or from nothing.
-  subroutine search_mesh(mesh, target, path_settings, log, before, has_smaller, between)
+  !> Searches one mesh for the answer: from that of the mesh before, with heat where that has it, or else from nothing, and with
+  !> heat then.
+  !>
+  !> Fails when the mesh cannot be cut.
+  subroutine search_mesh(request, mesh, before, has_smaller, between, error)
+    type(request_type), intent(in) :: request
     type(mesh_type), target, intent(inout) :: mesh
-    type(operating_point_type), intent(in) :: target
-    type(path_settings_type), intent(in) :: path_settings
-    type(run_log_type), intent(in) :: log
     type(mesh_type), intent(inout) :: before !! the mesh that was searched before
     logical, intent(in) :: has_smaller !! there is one
     logical, intent(out) :: between !! another one is needed between them
+    type(error_type), allocatable, intent(out) :: error
+    type(scene_type), target, allocatable :: cold
     type(start_problem_type), allocatable :: problem
-    logical :: helped, again, has_contacts
+    logical :: hot, settled
 
+    between = .false.
+    hot = has_smaller
+    if (hot) hot = before%heated
+    call build_mesh(request, mesh, hot, error)
+    if (allocated(error)) return
+    call request%log%stage('film '//text(mesh%plan%circumferential)//' x '//text(mesh%plan%axial))
+    if (hot) then
+      call search_hot(request, mesh, before, between, settled)
+      if (between .or. settled) return
+      call request%log%line('no answer from the smaller mesh''s with heat ('//mesh%report%reason()//'): from nothing')
+      mesh%heated = .false.
+      call build_mesh(request, mesh, .false., error)
+      if (allocated(error)) return
+    end if
     allocate (problem)
     problem%scene => mesh%scene
-    problem%target = target
-    problem%settings = path_settings
+    if (mesh%scene%thermal%present) then
+      cold = at_ambient(mesh%scene, request%target)
+      problem%scene => cold
+    end if
+    call set_problem(request, mesh, problem)
+    call search_cold(mesh, before, has_smaller .and. .not. hot, problem, between)
+    if (between .or. .not. (mesh%scene%thermal%present .and. mesh%report%converged())) return
+    problem%scene => mesh%scene
+    call heat_up(problem, mesh%report)
+    mesh%heated = .true.
+    call seek_lift(problem, mesh%report)
+  end subroutine search_mesh
+
+  !> What is to be solved on a mesh.
+  subroutine set_problem(request, mesh, problem)
+    type(request_type), intent(in) :: request
+    type(mesh_type), intent(in) :: mesh
+    type(start_problem_type), intent(inout) :: problem !! with its scene
+
+    problem%target = request%target
+    problem%settings = request%path
     problem%bearing => mesh%bearing
     problem%newton => mesh%newton
+  end subroutine set_problem
+
+  !> On from the state with heat of the mesh before: its answer, or where its search ended.
+  subroutine search_hot(request, mesh, before, between, settled)
+    type(request_type), intent(in) :: request
+    type(mesh_type), target, intent(inout) :: mesh
+    type(mesh_type), intent(inout) :: before
+    logical, intent(out) :: between !! another mesh is needed between them
+    logical, intent(out) :: settled !! there is an answer, or none is to be looked for
+    type(start_problem_type), allocatable :: problem
+
+    mesh%heated = .true.
+    allocate (problem)
+    problem%scene => mesh%scene
+    call set_problem(request, mesh, problem)
+    problem%smaller => before%bearing
+    if (before%report%converged()) then
+      call carry_heat(problem, mesh%report)
+      settled = mesh%report%converged()
+      if (.not. settled) settled = gives_up(mesh%newton%settings%bound)
+      between = .not. (settled .or. mesh%divided) .and. lies_between(mesh%plan, before%plan)
+    else
+      problem%refusal = before%report
+      call show_heat(problem, mesh%report)
+      if (.not. (before%report%of_smaller .or. mesh%report%has_cause() .or. mesh%report%converged())) then
+        mesh%report%of_smaller = .true.
+        if (mesh%report%ending%kind /= ending_stopped) call mesh%report%ending%add_words('', ', as the mesh of '// &
+          text(before%plan%circumferential)//' x '//text(before%plan%axial)//' has it')
+      end if
+      settled = .true.
+      between = .false.
+    end if
+  end subroutine search_hot
+
+  !> The starts on one mesh without heat, from the answer of the mesh before or from nothing.
+  subroutine search_cold(mesh, before, has_smaller, problem, between)
+    type(mesh_type), target, intent(inout) :: mesh
+    type(mesh_type), intent(inout) :: before !! the mesh that was searched before
+    logical, intent(in) :: has_smaller !! there is one
+    type(start_problem_type), intent(inout) :: problem !! what is to be solved on this one
+    logical, intent(out) :: between !! another one is needed between them
+    logical :: helped, again, has_contacts
+
     has_contacts = mesh%bearing%has_contacts()
     helped = has_smaller
     if (has_smaller) helped = before%report%converged()
@@ -211,7 +319,7 @@ contains
       if (again) again = .not. gives_up(mesh%newton%settings%bound)
       if (again) then
         mesh%bearing%pad%film%flow%upwind = .true.
-        call log%line('film: Galerkin finds no answer, SUPG is tried')
+        call problem%newton%log%line('film: Galerkin finds no answer, SUPG is tried')
         call start_pressed(problem, report)
       end if
       if (problem%refused .and. .not. (report%converged() .or. report%has_cause())) then
@@ -223,11 +331,21 @@ contains
         end if
       end if
       mesh%anchor = problem%anchor
-      if (report%converged() .and. .not. problem%from_smaller .and. mesh%scene%operation%asks_for_lift()) then
-        call seek_branch(mesh%scene%operation%leading_edge_lift, mesh%scene%operation%leading_edge_lift_edge, problem)
+      if (.not. problem%from_smaller) call seek_lift(problem, report)
+    end associate
+  end subroutine search_cold
+
+  !> From an answer to that with the lift of an edge that the scene asks for.
+  subroutine seek_lift(problem, report)
+    type(start_problem_type), intent(inout) :: problem !! at the answer
+    type(path_report_type), intent(in) :: report !! of its search
+
+    associate (operation => problem%scene%operation)
+      if (report%converged() .and. operation%asks_for_lift()) then
+        call seek_branch(operation%leading_edge_lift, operation%leading_edge_lift_edge, problem)
       end if
     end associate
-  end subroutine search_mesh
+  end subroutine seek_lift
 
   !> Builds a scene's equations and finds their answer by loops, from the film of a rigid foil.
   !>
@@ -284,102 +402,4 @@ contains
     call destroy_newton(rigid_newton)
     call rigid%destroy()
   end subroutine start_partitioned
-
-  !> Finds the answer of a scene with heat: on the coarsest mesh from that at ambient temperature, on the others from the answer
-  !> with heat of the mesh before; where that does not lead there, from that at ambient temperature, too.
-  !>
-  !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  recursive subroutine start_heated(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    type(bearing_plan_type), intent(in) :: plan          !! its meshes
-    type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
-    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
-    type(path_settings_type), intent(in) :: path_settings !! limits of a path
-    type(run_log_type), intent(in) :: log !! gets the lines of progress
-    type(bearing_system_type), target, intent(inout) :: bearing !! is built
-    type(newton_type), target, intent(inout) :: newton          !! its solver, is created
-    type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
-    type(error_type), allocatable, intent(out) :: error !! why it could not be done
-    type(scene_type), allocatable :: small
-    type(bearing_plan_type) :: small_plan
-    type(bearing_system_type), pointer :: coarse
-    type(newton_type), pointer :: coarse_newton
-    integer :: spent(3), before(3)
-    logical :: smaller
-
-    allocate (small)
-    before = 0
-    if (newton%created) call drop_bearing(bearing, newton, before)
-    call find_smaller(scene, plan, target, smaller, small, small_plan)
-    if (smaller) then
-      allocate (coarse, coarse_newton)
-      call start_heated(small, small_plan, target, newton_settings, path_settings, log, coarse, coarse_newton, report, error)
-      if (allocated(error)) return
-      if (report%converged()) then
-        call build_bearing(scene, plan, bearing, error)
-        if (allocated(error)) return
-        call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-        call log%stage('film '//text(plan%circumferential)//' x '//text(plan%axial))
-        call transfer_answer(coarse, bearing)
-        call solve_at(bearing, newton, target, .false., path_settings, report)
-      end if
-      call drop_bearing(coarse, coarse_newton, spent)
-      deallocate (coarse, coarse_newton)
-      spent(3) = spent(2)
-      before = before + spent
-      if (report%converged()) then
-        call count_spent(newton, before)
-        return
-      end if
-      if (newton%created) then
-        call drop_bearing(bearing, newton, spent)
-        before = before + spent
-      end if
-    end if
-    call heat_up(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    if (.not. allocated(error)) call count_spent(newton, before)
-  end subroutine start_heated
-
-  !> Finds the answer at ambient temperature, with the shaft as its speed has made it grow, and goes on with heat. Where Newton's
-  !> method does not find that at once, what temperatures do to gas, shaft and sleeve comes by steps. Lifts of an edge are those with
-  !> heat.
-  subroutine heat_up(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    type(scene_type), target, intent(in) :: scene
-    type(bearing_plan_type), intent(in) :: plan
-    type(operating_point_type), intent(in) :: target
-    type(newton_settings_type), intent(in) :: newton_settings
-    type(path_settings_type), intent(in) :: path_settings
-    type(run_log_type), intent(in) :: log
-    type(bearing_system_type), target, intent(inout) :: bearing
-    type(newton_type), target, intent(inout) :: newton
-    type(path_report_type), intent(out) :: report
-    type(error_type), allocatable, intent(out) :: error
-    type(scene_type), allocatable :: cold
-    type(film_heat_type) :: heat
-    type(start_problem_type), allocatable :: problem
-
-    cold = scene
-    cold%thermal%present = .false.
-    cold%operation%leading_edge_lift = [real(wp) ::]
-    cold%operation%leading_edge_lift_edge = [real(wp) ::]
-    heat = heat_of(scene)
-    cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
-    call start_cold(cold, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    if (allocated(error)) return
-    if (.not. report%converged()) return
-    call log%stage('heat')
-    bearing%pad%film%interference = scene%bearing%interference
-    call add_heat(bearing, heat)
-    call renew_newton(newton, bearing, 'bearing_')
-    bearing%point%growth = 0.0_wp
-    call follow_path(bearing, newton, target, 1.0_wp, path_settings, report)
-    if (.not. (report%converged() .and. scene%operation%asks_for_lift())) return
-    allocate (problem)
-    problem%scene => scene
-    problem%target = target
-    problem%settings = path_settings
-    problem%bearing => bearing
-    problem%newton => newton
-    call seek_branch(scene%operation%leading_edge_lift, scene%operation%leading_edge_lift_edge, problem)
-  end subroutine heat_up
 end module gfb_cold_start

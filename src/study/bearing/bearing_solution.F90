@@ -256,7 +256,8 @@ contains
     gave_up = self%bound%is_reached() .and. .not. report%converged()
     call self%bound%lift()
     if (.not. gave_up) return
-    call self%context%log%line('the search from nothing gave up '//self%bound%words())
+    call self%context%log%line('the search from nothing gave up '//self%bound%words()//'; a sweep from a lighter load, a lower '// &
+                               'speed or less tilt may lead there')
     if (.not. report%has_cause()) call report%ending%add_words('', ', '//self%bound%words())
   end subroutine end_search
 

@@ -207,13 +207,15 @@ contains
     type(path_settings_type) :: settings
     type(newton_settings_type) :: tolerances
     type(path_report_type) :: report
+    type(scene_type), allocatable :: own
 
+    own = searched(scene)
     associate (solver => scene%solver)
       settings = path_settings_type(solver%maximum_load_steps, solver%smallest_load_step, solver%touch_down_gap)
       tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, solver%maximum_iterations)
       tolerances%bound => self%bound
       call self%bound%begin(solver%maximum_factorizations)
-      call start_bearing(searched(scene), self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
+      call start_bearing(own, self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
                          self%bearing, self%newton, report, error)
       call self%bound%lift()
     end associate
@@ -225,7 +227,7 @@ contains
       call context%log%line('no equilibrium from the usual starts: '//report%reason())
     end if
     ! The other starts are those of a film without heat.
-    if (.not. scene%thermal%present) call search_from_starts(self, searched(scene), settings, context%log)
+    if (.not. scene%thermal%present) call search_from_starts(self, own, settings, context%log)
     self%converged = allocated(self%search%branch)
     if (.not. self%converged) self%reason%code = reason_no_equilibrium
     self%unknowns = self%bearing%unknowns

@@ -2,6 +2,7 @@
 
 --set random: bearings drawn from a fixed seed, member by member, so that the first hundred of a thousand are the same.
 --set engineer: one bearing, 12 directions of the load x 4 loads x 3 speeds, beams and shells.
+--set hot: those bearings with heat, rigid ones too, of one pad or three, on the default mesh. --set tilted: those bearings, tilted.
 Touch-downs and folds are shown a second way. A run is stopped at a bound on its CPU time, which counts as no answer.
 Rows are kept in build/bench/population.json, so that an interrupted command goes on with --reuse. Beside the page is a table of
 all members; with --earlier such a table, a refusal that it has, too, is not shown once more.
@@ -30,8 +31,8 @@ def add_options(parser):
     parser.add_argument("--set", choices=SETS, default="random", help="which population; default: %(default)s")
     parser.add_argument("--count", metavar="N", type=int, default=1000, help="its first N members; default: %(default)s")
     parser.add_argument("--seed", metavar="N", type=int, default=SEED, help="another one draws other members; default: %(default)s")
-    parser.add_argument("--models", metavar="LIST", default="foundation,beam,shell",
-                        help="of %(default)s; members have them in turn")
+    parser.add_argument("--models", metavar="LIST", default="rigid,foundation,beam,shell",
+                        help="of %(default)s; members have those that the set draws, in turn")
     parser.add_argument("--jobs", metavar="N", type=int, default=2, help="runs at a time; default: %(default)s")
     parser.add_argument("--seconds", metavar="S", type=float, default=300.0,
                         help="CPU time of a run at most; default: %(default)s")

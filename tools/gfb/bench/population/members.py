@@ -8,9 +8,10 @@ import random
 SEED = 20
 AMBIENT, VISCOSITY = 101350.0, 1.95e-5  # [Pa], [Pa s]
 SHEET = {"youngs_modulus": 214.0e9, "poissons_ratio": 0.29}
-FOUNDATION, BEAM, SHELL = "elastic_foundation", "beam", "shell"
-MODELS = (FOUNDATION, BEAM, SHELL)
+RIGID, FOUNDATION, BEAM, SHELL = "rigid", "elastic_foundation", "beam", "shell"
+MODELS = (RIGID, FOUNDATION, BEAM, SHELL)
 TURN = (BEAM, FOUNDATION, BEAM, FOUNDATION, SHELL)  # which model a member has, in turn
+HOT_TURN = (RIGID, FOUNDATION, BEAM, FOUNDATION, BEAM)
 PITCH = (1.5e-3, 10.0e-3)  # of bumps that are made [m]
 ELEMENTS_A_BUMP, ELEMENTS_AROUND = 6, 96  # the film's, at least
 STEEL_MESH = {"arc_elements": 8, "flat_elements": 2}
@@ -88,6 +89,39 @@ def meshed(groups, model):
     return groups
 
 
+def hot_member(number, model, seed=SEED):
+    """A hot bearing by its number: that of the same number cold, of one pad or three, with heat that leaves by ways of any strength."""
+    chance = random.Random(f"hot, {seed}, {number}")
+    groups = dict(random_member(number, FOUNDATION if model == RIGID else model, seed).groups)
+    ambient = chance.choice((293.15, 293.15, 350.0, 500.0))
+    groups["gas"] = {"viscosity_law": "sutherland", "ambient_pressure": AMBIENT*logarithmic(chance, 1.0, 3.0)}
+    groups["thermal"] = {
+        "ambient_temperature": ambient, "shaft_conductance": logarithmic(chance, 0.05, 3.0),
+        "sleeve_conductance": logarithmic(chance, 0.2, 10.0), "bump_conductance": logarithmic(chance, 50.0, 500.0),
+        "shaft_expansion": chance.uniform(8.0e-6, 16.0e-6), "sleeve_expansion": chance.uniform(8.0e-6, 16.0e-6),
+        "carry_over": chance.uniform(0.5, 0.95)}
+    groups.setdefault("top_foil", {"thickness": logarithmic(chance, 50.0e-6, 200.0e-6)})
+    if chance.random() < 0.4:
+        groups["pads"] = {"count": 3, "arc": chance.uniform(1.8, 2.0), "preload": chance.uniform(0.0, 0.6)}
+        if "bump_foil" in groups:
+            groups["bump_foil"] = {**groups["bump_foil"], "bumps": max(4, groups["bump_foil"]["bumps"]//4)}
+    groups["model"] = {"foil": model}
+    del groups["mesh"]  # the default one: what a user waits for
+    if model == RIGID:
+        del groups["bump_foil"]
+    return Member(f"hot {number}", model, groups)
+
+
+def tilted_member(number, model, seed=SEED):
+    """A bearing by its number whose shaft is tilted as far as half of its clearance at the ends."""
+    chance = random.Random(f"tilted, {seed}, {number}")
+    member = random_member(number, model, seed)
+    bearing = member.groups["bearing"]
+    tilt, angle = bearing["clearance"]/bearing["length"]*chance.uniform(0.1, 1.0), chance.uniform(0.0, 2.0*math.pi)
+    return Member(f"tilted {number}", model, {**member.groups, "operation": {
+        **member.groups["operation"], "tilt": (tilt*math.cos(angle), tilt*math.sin(angle))}})
+
+
 def engineer_member(degrees, load, speed, model):
     """A bearing as an engineer would try it: thin foils, friction 0.1, both edges fixed at the trailing end."""
     angle = math.radians(degrees)
@@ -118,4 +152,16 @@ def engineer_set(count, models, seed=SEED):
     return members[:count]
 
 
-SETS = {"random": random_set, "engineer": engineer_set}
+def hot_set(count, models, seed=SEED):
+    """The first hot members; models in turn."""
+    turn = [one for one in HOT_TURN if one in models]
+    return [hot_member(number, turn[number % len(turn)], seed) for number in range(count)]
+
+
+def tilted_set(count, models, seed=SEED):
+    """The first tilted members; models in turn."""
+    turn = [one for one in TURN if one in models]
+    return [tilted_member(number, turn[number % len(turn)], seed) for number in range(count)]
+
+
+SETS = {"random": random_set, "engineer": engineer_set, "hot": hot_set, "tilted": tilted_set}

@@ -11,8 +11,8 @@ from gfb.tables import markdown_table, plain_table
 from gfb.tool import stop
 
 WORST = 10
-FILES = {"random": "population", "engineer": "population_engineer"}  # page and table, without .md and .csv
-MORE = {"random": " What refusals cost, and what was\ntried on members that are lost: [population_refusals.md](population_refusals.md).", "engineer": ""}
+FILES = {"random": "population", "engineer": "population_engineer", "hot": "population_hot", "tilted": "population_tilted"}  # page and table, without .md and .csv
+MORE = {"random": " What refusals cost, and what was\ntried on members that are lost: [population_refusals.md](population_refusals.md).", "engineer": "", "hot": "", "tilted": ""}
 SAID = {
     "random": "Bearings drawn from a fixed seed: radius 8 to 50 mm, L/D 0.5 to 1.5, C/R 0.0005 to 0.003, 8 to 40 bumps of a pitch "
               "of 1.5 to 10 mm,\nfoils of 50 to 200 um, friction 0 to 0.3, either fixed edge, 5,000 to 120,000 rpm, loads in all "
@@ -21,6 +21,10 @@ SAID = {
     "engineer": "One bearing: radius 15 mm, length 30 mm, clearance 25 um, 26 bumps of 0.1 mm (half length 1.4 mm, height "
                 "0.45 mm), top foil 0.1 mm,\nfriction 0.1, both foils fixed at the trailing edge; 20, 60, 100 and 140 N in twelve "
                 "directions at 40,000, 80,000 and 120,000 rpm.",
+    "hot": "The bearings of [population.md](population.md) with heat, rigid ones among them, two in five of three pads of a preload up to 0.6: air of\n"
+           "1 to 3 bar and 293 to 500 K by Sutherland's law, conductances of shaft 0.05 to 3 W/K, sleeve 0.2 to 10 W/K, bumps 50 to 500 W/(m2 K),\n"
+           "expansions of 8e-6 to 16e-6 1/K, carry-over 0.5 to 0.95. The default mesh of each.",
+    "tilted": "The bearings of [population.md](population.md), tilted in all directions by 0.1 to 1 times C/L: half of the clearance at the ends.",
 }
 COLUMNS = ("member", "model", "outcome", "CPU [s]", "factorizations", "smallest gap [um]", "second way", "shown by")
 HEAD = """# Population: {name}

@@ -13,8 +13,8 @@ from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of, w
 
 ANSWER, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID = "answer", "lost", "gave up", "CPU bound", "broke off", "wrong input"
 REFUSALS = {"touch-down": ("touches down",), "fold": ("ends in a fold",), "emptied": ("film is emptied",),
-            "suction": ("draws the free edge",)}
-SUCTION = "suction"
+            "suction": ("draws the free edge",), "heated": ("no steady temperature",)}
+SUCTION, HEATED = "suction", "heated"
 OUTCOMES = (ANSWER, *REFUSALS, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID)
 NOT_FOUND = ("no equilibrium found", "no answer found")  # what the log says where there is no answer
 TOUCH_DOWN_SHARE = 1.0e-4  # touch_down_gap over the clearance, by default
@@ -35,6 +35,7 @@ REST = (("load_angle", TURNED), ("load_angle", TURNED_BACK), (TOP_FOIL, THINNER)
 SWEEPS = {"touch-down": (("load", RISING), ("speed_rpm", SLOWER), ("load", LIGHTER), *REST),
           "emptied": (("load", RISING), ("speed_rpm", SLOWER), *REST),
           "fold": (("load", RISING), ("speed_rpm", RISING), ("speed_rpm", SLOWER), *REST),
+          HEATED: (("speed_rpm", RISING),),
           SUCTION: (("load", FALLING), ("load", RISING), ("speed_rpm", RISING), *REST)}
 CHEAP, LEAST = 3.0, 30.0  # CPU time of a sweep: times that of the run that is to be shown, at least [s]
 SECOND_WAYS = (BY_GAP, *dict.fromkeys(BY_SWEEP.values()), BELOW, AGAINST, OPEN)
@@ -136,6 +137,8 @@ def ends_of(outcome, parameter):
     """How a sweep ends that shows a refusal."""
     if outcome == SUCTION:
         return ("fold", SUCTION)
+    if outcome == HEATED:
+        return ("fold", HEATED, "touch-down")
     if parameter in (TOP_FOIL, BUMP_FOIL) or (outcome == "touch-down" and parameter == "load_angle"):
         return (outcome, "touch-down", "fold")
     return (outcome,)
