@@ -4,10 +4,16 @@
 #include <stdint.h>
 #include <petscsys.h>
 
-/* To be called before MPI starts, and again before PETSc does: from then on to gfb_started the end of the process is a sentence
-   and status 3. A process that no launcher has started, by Open MPI up to 4, needs no helper daemon where it shares nothing with
-   others: its session folder is its own, and gone when it ends. Where a launcher, or the user, has set Open MPI up, that is all. */
-void gfb_start_alone(void);
+/* Starts MPI where it has not started: until gfb_started the end of the process is a sentence and status 3. A process that no
+   launcher has started, by Open MPI up to 4, needs no helper daemon where it shares nothing with others: its session folder is its
+   own, and gone when it ends. Where a launcher, or the user, has set Open MPI up, that is all. What it loads takes no settings
+   from the current folder. */
+void gfb_start_mpi(void);
+
+/* Starts PETSc and SLEPc, and MPI where it has not started; the communicator (of Fortran) is that of this group of ranks where it
+   has. Words: the program's name and the options that were typed for PETSc, each with a zero behind it, in all so many characters.
+   Of files of options that nobody has named only that of the home is read. */
+PetscErrorCode gfb_start_slepc(MPI_Fint communicator, const char words[], size_t length);
 
 /* To be called when MPI has started: takes back what was set in the environment, and what the end means. */
 void gfb_started(void);

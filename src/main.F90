@@ -27,7 +27,7 @@ program gfb
   call look_for_room(room_to_start)
   if (line%version .or. .not. (line%informs() .or. line%check)) call choose_kernel()
   call start_pool(line%groups, pool)
-  call start_petsc()
+  call start_petsc(line%petsc)
   if (line%time_limit > 0) call limit_time(line%time_limit)
   log%active = this_rank() == 0 .and. pool%rank == 0
   status = 0

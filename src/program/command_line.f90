@@ -1,5 +1,6 @@
 !> What the user typed after the program's name.
 module gfb_command_line
+  use, intrinsic :: iso_c_binding, only: c_null_char
   use gfb_errors, only: error_type, fail
   use gfb_run_log, only: run_log_type
   use gfb_text, only: nearest_word, did_you_mean
@@ -38,14 +39,16 @@ module gfb_command_line
     logical :: quiet = .false.   !! a line a stage and no more
     logical :: verbose = .false. !! a line per iteration
     character(len=:), allocatable :: words !! the whole line
+    !> the program's name and what is for PETSc, a zero character behind each
+    character(len=:), allocatable :: petsc
   contains
     procedure :: context => run_context, informs
   end type command_line_type
 
-  character(len=12), parameter :: options(19) = [character(len=12) :: &
+  character(len=20), parameter :: options(20) = [character(len=20) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
-    '--keys', '--quiet', '--petsc', '--groups', '--name', '--results', '--strict', '--time-limit', &
-    '--template', '--explain', '--csv', '--verbose']
+    '--keys', '--quiet', '--petsc', '--petsc-options-file', '--groups', '--name', '--results', &
+    '--strict', '--time-limit', '--template', '--explain', '--csv', '--verbose']
 
 contains
 
@@ -65,6 +68,7 @@ contains
     line%explain = ''
     allocate (line%case_files(0))
     line%words = argument(0)
+    line%petsc = line%words//c_null_char
     do i = 1, command_argument_count()
       line%words = line%words//' '//argument(i)
     end do
@@ -92,7 +96,9 @@ contains
         if (line%explain == '') call fail(error, 'gfb: --explain needs a key, or the name of '// &
                                           'a result')
       case ('--petsc') ! the rest is for PETSc
-        exit
+        do i = i + 1, command_argument_count()
+          line%petsc = line%petsc//argument(i)//c_null_char
+        end do
       case ('--') ! the rest are case files
         do i = i + 1, command_argument_count()
           call take_file(argument(i), line, error)
@@ -101,12 +107,9 @@ contains
         i = i + 1
         line%folder = argument(i)
         if (line%folder == '') call fail(error, 'gfb: --output needs a folder')
-      case ('--groups')
+      case ('--groups', '--time-limit', '--petsc-options-file')
         i = i + 1
-        call take_groups(argument(i), line, error)
-      case ('--time-limit')
-        i = i + 1
-        call take_time_limit(argument(i), line, error)
+        call take_other(word//'='//argument(i), line, error)
       case ('--name')
         i = i + 1
         line%table = argument(i)
@@ -251,6 +254,19 @@ contains
     end if
   end subroutine take_time_limit
 
+  !> A file of options for PETSc: it reads those that were named, and that of the home.
+  subroutine take_options_file(word, line, error)
+    character(len=*), intent(in) :: word
+    type(command_line_type), intent(inout) :: line
+    type(error_type), allocatable, intent(out) :: error
+
+    if (word == '') then
+      call fail(error, 'gfb: --petsc-options-file needs a file')
+    else
+      line%petsc = line%petsc//'-options_file'//c_null_char//word//c_null_char
+    end if
+  end subroutine take_options_file
+
   !> A word that is no known option: the case file, or a mistake.
   subroutine take_other(word, line, error)
     character(len=*), intent(in) :: word
@@ -273,6 +289,8 @@ contains
       line%template = word(12:)
     else if (index(word, '--explain=') == 1 .and. len(word) > 10) then
       line%explain = word(11:)
+    else if (index(word, '--petsc-options-file=') == 1) then
+      call take_options_file(word(22:), line, error)
     else if (index(word, '--name=') == 1 .and. len(word) > 7) then
       line%table = word(8:)
     else if (index(word, '-') == 1) then
@@ -365,6 +383,8 @@ contains
       '  --version       version of the program and its libraries'//next// &
       '  --help          this text'//next// &
       '  --              case files follow, also such as begin with -'//next// &
+      '  --petsc-options-file FILE  options for PETSc, a line each, beside those of'//next// &
+      '                  .petscrc in the home and of PETSC_OPTIONS'//next// &
       '  --petsc ...     all that follows is for PETSc, such as -bearing_ksp_view'//next// &
       next// &
       'results: CASE.summary, .h5, .used.nml, .csv of sweeps, and surfaces as '// &

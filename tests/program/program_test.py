@@ -58,7 +58,7 @@ def check_options(checks, folder):
     status, words, wrong = call("--help", folder=folder)
     checks.that("--help: status 0, nothing on the error stream", status == 0 and not wrong)
     checks.that("--help: names every option and the exit status", all(part in words for part in (
-        "--check", "--output", "--quiet", "--verbose", "--csv", "--template", "--explain", "--groups", "--name", "--keys", "--results", "--strict", "--version", "--petsc",
+        "--check", "--output", "--quiet", "--verbose", "--csv", "--template", "--explain", "--groups", "--name", "--keys", "--results", "--strict", "--version", "--petsc-options-file FILE", "--petsc ",
         "exit status", "CASE.nml")))
     status, words, wrong = call("--version", folder=folder)
     checks.that("--version", status == 0 and words.startswith("gfb ") and "PETSc" in words and words.count("\n") == 1)
@@ -246,8 +246,8 @@ def check_petsc_options(checks, folder):
             kept = file["provenance/petsc_options"][()].decode() if "petsc_options" in file["provenance"] else ""
         checks.that(f"PETSC_OPTIONS={words_given}: '{kept}' in the file", status == 0 and kept == expected)
         checks.that("in the log, too", ("options given to PETSc: " + expected + "\n" in words) == bool(expected))
-    (folder/"petscrc").write_text("-bearing_ksp_type gmres # an experiment\n", encoding="utf-8")
-    status, words, _ = call("good.nml", "--petsc", "-bearing_snes_max_it", "30", folder=folder)
+    (folder/"mine").write_text("-bearing_ksp_type gmres # an experiment\n", encoding="utf-8")
+    status, words, _ = call("good.nml", "--petsc-options-file", "mine", "--petsc", "-bearing_snes_max_it", "30", folder=folder)
     checks.that("from a file and the command line", "-bearing_snes_max_it 30" in words and (
         "-bearing_ksp_type gmres" in words))
 

@@ -35,7 +35,8 @@ _gfb() {{
   case $before in
     --output) mapfile -t COMPREPLY < <(compgen -d -- "$word"); return ;;
     --template) mapfile -t COMPREPLY < <(compgen -W '{analyses_of(options)}' -- "$word"); return ;;
-    {"|".join(name for name, value, _ in options if value and name not in ("--output", "--template"))}) return ;;
+    {"|".join(name for name, value, _ in options if value == "FILE")}) mapfile -t COMPREPLY < <(compgen -f -- "$word"); return ;;
+    {"|".join(name for name, value, _ in options if value not in ("", "FILE") and name not in ("--output", "--template"))}) return ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W '{names} --petsc' -- "$word")
@@ -52,7 +53,8 @@ def zsh(options):
     lines = []
     for name, value, meaning in options:
         words = re.sub(r"[\[\]':]", " ", meaning)
-        action = {"--output": ":folder:_files -/", "--template": f":analysis:({analyses_of(options)})"}.get(name, f":{value}:" if value else "")
+        action = {"--output": ":folder:_files -/", "--template": f":analysis:({analyses_of(options)})"} \
+            .get(name, ":file:_files" if value == "FILE" else f":{value}:" if value else "")
         lines.append(f"  '{name}[{words}]{action}' \\\n")
     return ("#compdef gfb\n# zsh completion of gfb, written by tools/manual from gfb --help\n_arguments \\\n" + "".join(lines)
             + "  '--petsc[all that follows is for PETSc]:*:::options: ' \\\n  '*:case file:_files -g \"*.nml\"'\n")
@@ -64,7 +66,7 @@ def fish(options):
     for name, value, meaning in options:
         words = meaning.replace("\\", "").replace("'", "\\'")
         more = {"--output": " -x -a '(__fish_complete_directories)'", "--template": f" -x -a '{analyses_of(options)}'"}
-        lines.append(f"complete -c gfb -l {name[2:]}{more.get(name, ' -x' if value else '')} -d '{words}'\n")
+        lines.append(f"complete -c gfb -l {name[2:]}{more.get(name, ' -r' if value == 'FILE' else ' -x' if value else '')} -d '{words}'\n")
     return "".join(lines)
 
 

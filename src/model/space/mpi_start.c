@@ -1,12 +1,16 @@
-/* MPI's start: without Open MPI's helper where a process is alone, and with a sentence and a status where it fails. */
-#define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
+/* The start of MPI and PETSc: without Open MPI's helper where a process is alone, without what somebody has left in the current
+   folder, and with a sentence and a status where it fails. */
+#define _GNU_SOURCE /* mkdtemp, nftw, O_PATH */
 #include "gfb_shim.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <ftw.h>
 #include <limits.h>
+#include <slepcsys.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const int status_machine = 3;
@@ -70,10 +74,13 @@ static const char *temporary_folder(void)
   return folder && *folder ? folder : "/tmp";
 }
 
-/* Makes a folder of our own in another; 0 where that cannot be. */
+/* Makes a folder of our own in another; 0 where that cannot be. Its name holds in every folder of work. */
 static int make_session(const char *folder)
 {
-  return snprintf(session, sizeof session, "%s/gfb-XXXXXX", folder) < (int)sizeof session && mkdtemp(session) != NULL;
+  char whole[PATH_MAX];
+
+  return realpath(folder, whole) && snprintf(session, sizeof session, "%s/gfb-XXXXXX", whole) < (int)sizeof session
+      && mkdtemp(session) != NULL;
 }
 
 static void say_not_started(void)
@@ -99,7 +106,7 @@ static void end_of_start(void)
   MPI_Initialized(&begun);
   if (begun) MPI_Finalized(&ended);
   if (ended) return; /* PETSc has done what it was asked for, such as -help intro */
-  if (begun) fprintf(stderr, "gfb: PETSc could not start: what it was told, by PETSC_OPTIONS or a file .petscrc, does not serve\n");
+  if (begun) fprintf(stderr, "gfb: PETSc could not start: what it was told, by PETSC_OPTIONS or a file of options, does not serve\n");
   else say_not_started();
   remove_session();
   _Exit(status_machine);
@@ -125,15 +132,12 @@ static void watch_start(void)
   starting = getpid();
 }
 
-void gfb_start_alone(void)
+/* What a process needs that no launcher has started. */
+static void prepare_alone(void)
 {
-  watch_start();
 #if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
   const char *const folders[] = {temporary_folder(), "/tmp"};
-  int               begun;
 
-  MPI_Initialized(&begun); /* where the ranks have been divided into groups */
-  if (begun) return;
   if (is_launched()) {
     is_yielding = !getenv(yielding) && setenv(yielding, "1", 1) == 0;
     return;
@@ -144,6 +148,86 @@ void gfb_start_alone(void)
   atexit(remove_session);
   for (size_t i = 0; i < alone_settings; i++) setenv(alone[i][0], alone[i][1], 1);
 #endif
+}
+
+/* The current folder, which is left for the root; -1 where nothing in it can be opened by anybody's name. */
+static int leave_folder(void)
+{
+  int here;
+
+  if (access(".", X_OK) != 0) return -1;
+  here = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
+  if (here < 0 || chdir("/") != 0) {
+    fprintf(stderr, "gfb: the folder in which it was started cannot be opened: %s\n", strerror(errno));
+    gfb_started(); /* that was the sentence */
+    exit(status_machine);
+  }
+  return here;
+}
+
+static void return_to_folder(int here)
+{
+  if (here < 0) return;
+  if (fchdir(here) != 0) {
+    fprintf(stderr, "gfb: the folder in which it was started is closed: %s\n", strerror(errno));
+    gfb_started();
+    exit(status_machine);
+  }
+  close(here);
+}
+
+/* What MPI loads reads settings in the current folder (UCX does, ucx.conf), which may be a stranger's: it starts in the root. */
+void gfb_start_mpi(void)
+{
+  int begun, provided, here;
+
+  MPI_Initialized(&begun);
+  if (begun) return;
+  watch_start();
+  prepare_alone();
+  here = leave_folder();
+  MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
+  return_to_folder(here);
+  gfb_started();
+}
+
+/* The file of options in the home, which is the user's own; one without any where there is none. */
+static const char *own_options(char path[], size_t room)
+{
+  const char *home = getenv("HOME");
+  struct stat status;
+
+  if (home && *home == '/' && snprintf(path, room, "%s/.petscrc", home) < (int)room && stat(path, &status) == 0
+      && S_ISREG(status.st_mode) && access(path, R_OK) == 0)
+    return path;
+  return "/dev/null";
+}
+
+/* PETSc reads three files by itself, two of them in the current folder: told to skip them, it gets the home's by name. Files that
+   the user names, and PETSC_OPTIONS, it reads as ever; its arguments outlive this call. */
+PetscErrorCode gfb_start_slepc(MPI_Fint communicator, const char words[], size_t length)
+{
+  static const char skip[] = "-skip_petscrc";
+  char              path[PATH_MAX], *next = malloc(length + 1), **arguments = calloc(length + 3, sizeof *arguments);
+  const char       *file = own_options(path, sizeof path);
+  int               count = 0, begun;
+
+  if (!next || !arguments) return PETSC_ERR_MEM;
+  memcpy(next, words, length);
+  for (size_t i = 0; i < length; i += strlen(next + i) + 1) {
+    arguments[count++] = next + i;
+    if (strcmp(next + i, skip) == 0) file = "/dev/null";
+    if (count == 1) arguments[count++] = (char *)skip;
+  }
+  MPI_Initialized(&begun);
+  if (begun && communicator != 0 && MPI_Comm_f2c(communicator) != MPI_COMM_NULL) PETSC_COMM_WORLD = MPI_Comm_f2c(communicator);
+  gfb_start_mpi();
+  if (!begun) PetscBeganMPI = PETSC_TRUE; /* it ends MPI, also where it is told to end early */
+  watch_start();
+  PetscCall(SlepcInitialize(&count, &arguments, file, NULL));
+  PetscCall(SlepcInitializeFortran());
+  gfb_started();
+  return 0;
 }
 
 void gfb_started(void)

@@ -12,7 +12,7 @@ module gfb_petsc_session
   use gfb_petsc_kinds, only: preal, pint
   implicit none (type)
   private
-  public :: given_petsc_options, solver_options, gfb_start_alone, gfb_started, start_petsc, stop_petsc, this_rank, rank_count, &
+  public :: given_petsc_options, solver_options, gfb_start_mpi, start_petsc, stop_petsc, this_rank, rank_count, &
             ranks_on_node, petsc_version_text, wall_time, sum_over_ranks, largest_over_ranks, largest_number, any_rank, &
             share_failure, fetch_entries, stop_is_asked
 
@@ -35,14 +35,20 @@ module gfb_petsc_session
   end interface
 
   interface
-    !> Before MPI starts: where it cannot, a sentence and status 3. A process that no launcher has started does without Open MPI's
-    !> helper daemon, and without what it does not use.
-    subroutine gfb_start_alone() bind(c)
-    end subroutine gfb_start_alone
+    !> Starts MPI where it has not started; where it cannot, a sentence and status 3. A process that no launcher has started does
+    !> without Open MPI's helper daemon, and without what it does not use; settings of the current folder count for none.
+    subroutine gfb_start_mpi() bind(c)
+    end subroutine gfb_start_mpi
 
-    !> Afterwards: takes back what that has set.
-    subroutine gfb_started() bind(c)
-    end subroutine gfb_started
+    !> Starts PETSc, SLEPc, and MPI where it has not started.
+    function gfb_start_slepc(communicator, words, length) result(status) bind(c)
+      import
+      implicit none (type)
+      integer, value :: communicator     !! of this group of ranks, where MPI has started
+      type(c_ptr), value :: words        !! the program's name and options for PETSc, a zero behind each
+      integer(c_size_t), value :: length !! characters of all
+      PetscErrorCode :: status
+    end function gfb_start_slepc
 
     !> Makes what a library cannot do end the program with a sentence and status 3.
     function gfb_end_with_sentences() result(status) bind(c)
@@ -127,15 +133,18 @@ contains
   end function is_harmless
 
   !> Starts MPI, PETSc and SLEPc.
-  subroutine start_petsc()
+  subroutine start_petsc(words)
+    !> the program's name and options that were typed for PETSc, a zero character behind each
+    character(len=*, kind=c_char), intent(in), optional :: words
+    character(kind=c_char), allocatable, target :: typed(:)
     PetscBool :: given
     PetscErrorCode :: ierr
+    integer :: i
 
-    call gfb_start_alone()
+    typed = [character(kind=c_char) :: 'g', 'f', 'b', c_null_char]
+    if (present(words)) typed = [(words(i:i), i = 1, len(words))]
     if (gfb_end_with_sentences() /= 0) error stop 'PETSc takes no handler of errors'
-    call SlepcInitialize(PETSC_NULL_CHARACTER, ierr)
-    if (ierr /= 0) error stop 'PETSc could not be started'
-    call gfb_started()
+    if (gfb_start_slepc(PETSC_COMM_WORLD, c_loc(typed), size(typed, kind=c_size_t)) /= 0) error stop 'PETSc could not be started'
     call gfb_computing(1_c_int)
     ! Newer versions complain at the end of every option that is not theirs, as the program's own are.
     PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-options_left', given, ierr))

@@ -16,7 +16,7 @@ module gfb_pool
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_text_file, only: table_member_type, visit_member
-  use gfb_petsc_session, only: gfb_start_alone, gfb_started, any_rank
+  use gfb_petsc_session, only: gfb_start_mpi, any_rank
   use gfb_provenance, only: version_text
   use gfb_division, only: block_ends, owner_of
   use gfb_run_context, only: run_context_type, run_listener_type
@@ -55,13 +55,11 @@ contains
     type(pool_type), intent(out) :: pool !! with this rank's number in it
     GFB_COMM :: part
     integer(MPI_ADDRESS_KIND) :: bytes, base
-    integer :: provided, ierr
+    integer :: ierr
 
     pool%groups = groups
     if (groups == 0) return
-    call gfb_start_alone()
-    call MPI_Init_thread(MPI_THREAD_FUNNELED, provided, ierr)
-    call gfb_started()
+    call gfb_start_mpi()
     call MPI_Comm_size(MPI_COMM_WORLD, pool%ranks, ierr)
     call MPI_Comm_rank(MPI_COMM_WORLD, pool%rank, ierr)
     pool%split = pool%ranks >= groups
