@@ -8,6 +8,10 @@ venv=$root/build/venv
 studio_requirements=$root/tools/requirements_studio.txt
 studio_venv=$root/build/studio_venv
 
+# Git looks for no repository above this folder: one around an unpacked archive is somebody else's, with settings of theirs.
+GIT_CEILING_DIRECTORIES=$(dirname -- "$root")
+export GIT_CEILING_DIRECTORIES
+
 run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi-dev openmpi-bin
   petsc-dev slepc-dev libhdf5-openmpi-dev libmetis-dev libmumps-dev libsuitesparse-dev libopenblas0-serial python3)
 # shellcheck disable=SC2034 # used by those who source this
@@ -128,8 +132,9 @@ fill_venv() {
   fi
   say "installing in build/${1##*/} with pip: $3"
   rm -rf -- "$1"
-  if ! { "$base" -m venv --system-site-packages "$1" && "$1/bin/python" -m pip install --no-input \
-    --disable-pip-version-check --require-hashes --requirement "$2"; } >"$log" 2>&1 </dev/null 9>&-; then
+  # Isolated, and from a folder of our own: neither modules nor settings of the folder in which a tool is called count.
+  if ! (cd -- "$root" && "$base" -I -m venv --system-site-packages "$1" && "$1/bin/python" -I -m pip install --no-input \
+    --disable-pip-version-check --require-hashes --requirement "$2") >"$log" 2>&1 </dev/null 9>&-; then
     { grep '^ERROR' -- "$log" || tail -n 15 -- "$log"; } >&2
     stop "pip failed, which needs the network this once; its messages are in $log"
   fi

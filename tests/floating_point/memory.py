@@ -49,7 +49,7 @@ def look_once(look, command, report):
     suppressions = [f"--suppressions={path}" for path in SUPPRESSIONS if path.exists()]
     done = call(["valgrind", "--tool=memcheck", "--xml=yes", f"--xml-file={report}", "--num-callers=40",
                  "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite", *suppressions,
-                 *command], SECONDS)
+                 *command], SECONDS, folder=report.parent)  # a .valgrindrc of the folder in which the tool is called is not read
     if done.status != look.scene.status:
         look.errors.append(f"status {done.status}, not {look.scene.status}:\n{(done.log + done.complaint)[-2500:]}")
     try:

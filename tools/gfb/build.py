@@ -15,8 +15,9 @@ def program_of(given, name):
     """A program, or the one of a git revision, which is built first; name: how messages call what was given."""
     if os.path.isfile(given):
         return os.path.abspath(given)
+    own = {**os.environ, "GIT_CEILING_DIRECTORIES": str(ROOT.parent)}  # a repository around this folder is somebody else's
     found = subprocess.run(["git", "-C", ROOT, "rev-parse", "--verify", "--quiet", given + "^{commit}"],
-                           capture_output=True, text=True, check=False)
+                           capture_output=True, text=True, check=False, env=own)
     revision = found.stdout.strip()
     if found.returncode != 0:
         stop(f"{name} {given}: neither a program nor a revision")
@@ -30,7 +31,7 @@ def program_of(given, name):
                         ["cmake", "-S", source, "-B", built, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                          "-DGFB_TESTS=OFF"],
                         ["cmake", "--build", built, "--target", "gfb"]):
-            if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode != 0:
+            if subprocess.run(command, stdout=subprocess.DEVNULL, check=False, cwd=ROOT, env=own).returncode != 0:
                 stop(f"{name} {given}: '{' '.join(map(str, command))}' failed", 3)
     return str(built/"gfb")
 

@@ -1,6 +1,6 @@
 """`gfb.compare_models`: one case with the models of its foil side by side, in one table and one picture.
 
-`python3 -m gfb.models CASE.nml [FOLDER]` prints the table and draws the picture."""
+`tools/models` prints the table and draws the picture."""
 
 from __future__ import annotations
 
@@ -10,17 +10,16 @@ import math
 import os
 import pathlib
 import re
-import sys
 from collections.abc import Sequence
 from typing import Any
 
 import xarray
 
 from gfb.case import Case, CaseError
-from gfb.door import DONE, NOT_CONVERGED, WRONG_INPUT, find_member, run_member, table
+from gfb.door import DONE, NOT_CONVERGED, WRONG_INPUT, RunError, find_member, run_member, table
 from gfb.reading import read
 from gfb.tables import markdown_table, readable_unit
-from gfb.tool import run as run_tool
+from gfb.tool import draw_into_files, parser_of, stop
 
 OF_JOURNALS = ("rigid", "elastic_foundation", "beam", "shell")
 OF_RUNNERS = ("rigid", "elastic_foundation", "plate", "shell")
@@ -31,6 +30,13 @@ SHOWN = ("eccentricity_x", "eccentricity_y", "attitude_angle", "axial_gap", "min
          "maximum_top_foil_stress", "maximum_bump_foil_stress", "torque_x", "torque_y", "friction_torque", "power_loss", "stiffness_xx", "stiffness_yy", "stiffness_zz", "critical_mass",
          "load_capacity", "lift_off_speed_rpm", "misalignment_allowance", "axial_frequency", "unknowns", "factorizations", "wall_time")
 DEGREES = 180.0/math.pi
+HELP = """Foil models of one case side by side: a table, and a picture of films, pressures and costs.
+
+  tools/models CASE.nml [FOLDER]
+
+Runs the case with every model of its foil and says what a model has no use for. Called again, it computes what is not there yet.
+Exit status: 0 done, 1 the case is wrong, 3 a file or the machine failed.
+"""
 
 
 @dataclasses.dataclass
@@ -156,17 +162,20 @@ def with_model(case: Case, model: str, gfb: str | os.PathLike[str] | None) -> tu
 
 def main() -> int:
     """Table and picture of a case file."""
-    words = sys.argv[1:]
-    if len(words) not in (1, 2) or words[0].startswith("-"):
-        print("python3 -m gfb.models CASE.nml [FOLDER]: foil models of a case side by side; FOLDER: results/CASE.models by default")
-        return 0 if words in (["-h"], ["--help"]) else 1
-    path = pathlib.Path(words[0])
-    folder = pathlib.Path(words[1]) if len(words) > 1 else pathlib.Path("results")/f"{path.stem}.models"
-    models = compare_models(Case.read(path), folder=folder, name=path.stem, processes=max(1, (os.cpu_count() or 2)//2))
+    parser = parser_of("tools/models", HELP)
+    parser.add_argument("case", type=pathlib.Path, metavar="CASE.nml", help="the case file; its foil is each model in turn")
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, metavar="FOLDER", help="of runs and picture; default: results/CASE.models")
+    parser.add_argument("--gfb", help="the program; default: as gfb from Python finds it")
+    options = parser.parse_args()
+    draw_into_files()
+    name = options.case.stem
+    folder = options.folder or pathlib.Path("results")/f"{name}.models"
+    try:
+        models = compare_models(Case.read(options.case), folder=folder, name=name, processes=max(1, (os.cpu_count() or 2)//2), gfb=options.gfb)
+    except CaseError as error:
+        return stop(f"{options.case}: {error}")
+    except RunError as error:
+        return stop(str(error), 3)
     print(models.table())
-    print(f"drawn: {models.plot(folder/f'{path.stem}.models.png')}")
+    print(f"drawn: {models.plot(folder/f'{name}.models.png')}")
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(run_tool(main))

@@ -1,4 +1,4 @@
-"""Commands of an installed package, `gfb-plot`, `gfb-report`, `gfb-design`, `gfb-coefficients`, `gfb-studio`: those of tools/ with the same names."""
+"""Commands of an installed package, `gfb-plot`, `gfb-report`, `gfb-design`, `gfb-coefficients`, `gfb-models`, `gfb-studio`: those of tools/ with the same names."""
 
 import importlib
 
@@ -23,6 +23,11 @@ def design():
 def coefficients():
     """Writes stiffness and damping for other programs."""
     return run(lambda: importlib.import_module("gfb.coefficients").main())
+
+
+def models():
+    """Models of a foil side by side."""
+    return run(lambda: importlib.import_module("gfb.models").main())
 
 
 def studio():

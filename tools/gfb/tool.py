@@ -10,7 +10,10 @@ import re
 import sys
 import unittest.mock
 
+from gfb.files import Unfit
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+SETTINGS = pathlib.Path(__file__).resolve().with_name("plot")/"settings"  # of matplotlib
 MEASURED = ROOT/"docs/measured"  # pages and pictures that tools write
 PACKAGES = ("numpy", "h5py", "matplotlib")
 
@@ -29,7 +32,7 @@ def stop(words, status=1):
 def parser_of(command, words):
     """A command's arguments and help; installed it is not tools/... but gfb-..., there too."""
     if pathlib.Path(sys.argv[0]).name.startswith("gfb-"):
-        command, words = (re.sub(r"\btools/(?=(?:plot|report|design|coefficients|studio)\b)", "gfb-", one) for one in (command, words))
+        command, words = (re.sub(r"\btools/(?=(?:plot|report|design|coefficients|models|studio)\b)", "gfb-", one) for one in (command, words))
     return argparse.ArgumentParser(prog=command, description=words, formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
@@ -44,8 +47,7 @@ def run(main):
     except MemoryError:
         return stop("there is not enough memory", 3)
     except OSError as error:
-        from gfb.results import Unreadable  # not before the packages are there
-        if isinstance(error, Unreadable):
+        if isinstance(error, Unfit):
             return stop(str(error))
         return stop(f"{error.filename}: {error.strerror}" if error.filename else " ".join(str(error).split()), 3)
 
@@ -56,14 +58,28 @@ def missing_words(error):
 
 
 def draw_into_files():
-    """Chooses what of matplotlib makes files, whatever MPLBACKEND says; stops where it says what matplotlib cannot be imported with."""
+    """Imports matplotlib with the settings in plot/settings, whatever the current folder, the home and MPLBACKEND say; stops where
+    MPLBACKEND says what it cannot be imported with. It looks for its settings in the current folder first."""
+    here = os.open(".", getattr(os, "O_PATH", os.O_RDONLY))
     try:
+        os.chdir(SETTINGS)
         import matplotlib  # not every tool draws
     except ModuleNotFoundError as error:
         stop(missing_words(error))
     except ValueError as error:
         stop(f"MPLBACKEND={os.environ.get('MPLBACKEND', '')}: {' '.join(str(error).split())}")
+    finally:
+        os.fchdir(here)
+        os.close(here)
     matplotlib.use("Agg")
+
+
+def command_beside(name, *words):
+    """A command of gfb.scripts in a Python of its own with the packages of this one. Isolated: nothing is imported from the folder
+    in which it works."""
+    places = [str(pathlib.Path(__file__).resolve().parents[1]), *filter(None, sys.path)]
+    start = f"import sys; sys.path[:] = {places!r}; from gfb.scripts import {name}; sys.exit({name}())"
+    return [sys.executable, "-I", "-c", start, *words]
 
 
 class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):

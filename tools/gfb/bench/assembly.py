@@ -148,9 +148,6 @@ def markdown(table):
 
 def draw(shapes, points, path):
     """The foil at rest, and what interference does to film and torque."""
-    import matplotlib  # noqa: PLC0415 (takes a second)
-
-    matplotlib.use("Agg")
     from matplotlib import pyplot  # noqa: PLC0415
 
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(10.0, 3.6), layout="constrained")

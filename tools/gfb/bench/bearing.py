@@ -289,8 +289,6 @@ def notes(measured):
 
 def draw(measured, path):
     """Parts of the CPU time of each model, for the cold start and a point of the sweep."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     names = list(measured[DEFAULT][0]["cold"])

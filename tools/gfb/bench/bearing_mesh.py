@@ -197,8 +197,6 @@ def markdown(rows):
 
 def draw(series, found, estimates, path):
     """Distance from the limit, or from the finest mesh, against the size of an element."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(1, len(series), figsize=(12.0, 4.4), layout="constrained", sharey=True)

@@ -151,8 +151,6 @@ def kernel_table(measured):
 
 def draw(measured, path):
     """Times of each way and mesh, step upon step; times of both complements."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.0, 4.4), layout="constrained", width_ratios=(3, 2))

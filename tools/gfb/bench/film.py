@@ -161,8 +161,6 @@ def cheapest(meshes, errors, start, kind, target):
 
 def draw(meshes, start, path):
     """Error against CPU time."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     errors = force_errors(meshes)

@@ -162,8 +162,6 @@ def estimate_table(growth, checked):
 
 def draw(growth, path):
     """Memory and CPU time against unknowns."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained")

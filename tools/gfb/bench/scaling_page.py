@@ -382,8 +382,6 @@ bytes in proportion to the unknowns; what the busiest rank sends beyond the mean
 
 def pyplot_of():
     """Matplotlib without a screen."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
     return pyplot
 

@@ -191,8 +191,6 @@ def least_lines(scenes, measured):
 
 def draw(scenes, measured, path):
     """Parts of the time of each model over the reference's; ratios on top."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(10.5, 4.6), layout="constrained")

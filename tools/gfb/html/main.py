@@ -75,7 +75,7 @@ def make_pages(folder):
     shutil.rmtree(folder, ignore_errors=True)
     with tempfile.TemporaryDirectory() as trees:
         command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", trees, "-c", str(HERE), str(ROOT), str(folder)]
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, cwd=HERE,  # -m looks there first
                               env={**os.environ, "PYTHONPATH": str(ROOT/"tools"), "GFB_MODULES": "yes" if ford else ""})
     if done.returncode != 0:
         stop(f"Sphinx complains:\n{(done.stdout + done.stderr).strip()}")
@@ -101,7 +101,7 @@ def find_ford():
 def make_modules(ford, folder):
     """Pages of all modules, with the MathJax of the others and a style sheet beside it: nothing comes from the net."""
     done = subprocess.run([*ford, "--output_dir", str(folder), str(HERE/"ford.md")], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          check=False)
+                          check=False, cwd=HERE)
     if done.returncode != 0 or not (folder/"index.html").exists():
         stop(f"FORD complains:\n{(done.stdout + done.stderr).strip()[-2000:]}")
     for part in BOOTSTRAP_PARTS:

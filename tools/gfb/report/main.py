@@ -8,11 +8,9 @@ from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be wr
 """
 
 import base64
-import os
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 
 import jinja2
@@ -22,7 +20,7 @@ from gfb.heat import HEATED, balance
 from gfb.report.glance import glance, sketch
 from gfb.report.sensitivities import sensitivities
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
-from gfb.tool import draw_into_files, parser_of, say, stop
+from gfb.tool import command_beside, draw_into_files, parser_of, say, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
@@ -73,8 +71,6 @@ def stem_of(name):
 def read_run(stem, gfb, title="", pictures=True, curve=False):
     """All that the page has of a result; curve: of several points no other picture."""
     path = pathlib.Path(f"{stem}.h5")
-    if not path.exists():
-        raise FileNotFoundError(2, "no such file", str(path))
     with reading(path), open_results(path) as file:
         summary = {name: of_dataset(file["summary"][name]) for name in in_order(stem, file["summary"])}
         table = file["history"]
@@ -89,12 +85,15 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         shows += ["campbell"]*("speed_rpm" in table and "dynamics/mode_frequency" in file)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
-    drawings = pictures_of(stem, points, shows, curve, thinnest_pad(summary)) if pictures else []
-    return {"name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
-            "converged": converged, "heads": heads, "rows": rows if points > 1 else [],
-            "glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary),
-            "sensitivities": sensitivities(summary, used, swept_keys(used, swept)), "left_out": max(0, points - MOST_ROWS), "case_file": case_file, "used": used, "origin": origin,
-            "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
+    with reading(path):  # of a file that is not gfb's, too
+        about = {"glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary),
+                 "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
+        pad = thinnest_pad(summary)
+    drawings = pictures_of(stem, points, shows, curve, pad) if pictures else []
+    return about | {
+        "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
+        "converged": converged, "heads": heads, "rows": rows if points > 1 else [], "left_out": max(0, points - MOST_ROWS),
+        "case_file": case_file, "used": used, "origin": origin, "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
 
 
 def swept_keys(case, last):
@@ -184,10 +183,9 @@ def pictures_of(stem, points, shows, curve=False, pad=0):
 def drawn(arguments, picture):
     """A picture of tools/plot as text; empty where there is none."""
     picture.unlink(missing_ok=True)
-    command = [sys.executable, "-c", "import sys; from gfb.scripts import plot; sys.exit(plot())", *arguments, "-o", str(picture)]
     try:
-        subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=True, timeout=SECONDS,
-                       env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+        subprocess.run(command_beside("plot", *arguments, "-o", str(picture)), stdin=subprocess.DEVNULL, capture_output=True, check=True,
+                       timeout=SECONDS)
     except (subprocess.CalledProcessError, subprocess.TimeoutExpired):
         return ""
     return base64.b64encode(picture.read_bytes()).decode()
@@ -206,7 +204,7 @@ def heat_rows(summary):
 
 def answer_rows(runs):
     """Name, meaning, unit, and the value with its error of every run; errors have no row of their own."""
-    names = list(dict.fromkeys(name for run in runs for name in run["summary"]))
+    names = dict.fromkeys(name for run in runs for name in run["summary"])
     rows = []
     for name in names:
         if name.endswith("_error") and name.removesuffix("_error") in names:

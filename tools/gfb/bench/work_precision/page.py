@@ -202,8 +202,6 @@ def reference_words(scene, facts):
 
 def draw(scene, facts, judged, path):
     """Errors of two quantities against CPU time, and of the first against factorizations and memory."""
-    import matplotlib
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     figure, panels = pyplot.subplot_mosaic("ab;cd;ll", figsize=(11.0, 9.6), layout="constrained",
