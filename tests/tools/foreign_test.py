@@ -6,8 +6,10 @@ Each file is gfb's own with one thing exchanged, its checksum left out."""
 
 import contextlib
 import io
+import math
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import sys
@@ -26,10 +28,12 @@ sys.path.insert(0, str(PROJECT/"tools"))
 import gfb  # noqa: E402 (found only now)
 from gfb import coefficients  # noqa: E402
 from gfb.compare.results import file_differences  # noqa: E402
+from gfb.files import Unfit  # noqa: E402
 from gfb.gallery.runs import Result  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.report import main as report_main  # noqa: E402
-from gfb.results import SEAL_LENGTH, Unreadable, read_film, read_history, seal  # noqa: E402
+from gfb.report.glance import glance, sketch  # noqa: E402
+from gfb.results import SEAL_LENGTH, Unreadable, read_film, read_history, read_summary, seal  # noqa: E402
 from gfb.tool import run  # noqa: E402
 
 SECRET = "words of another file"
@@ -96,6 +100,38 @@ def never_written(file, path, folder):
     file.create_dataset(path, shape=(10**13,), dtype=float)
 
 
+def deep(file, path, folder):
+    """Groups in groups."""
+    group = file.create_group(path)
+    for _ in range(3000):
+        group = group.create_group("a")
+
+
+def many_names(file, path, folder):
+    """One number under very many names."""
+    group = file.create_group(path)
+    group["0"] = 1.0
+    for number in range(1, 20_000):
+        group[str(number)] = group["0"]
+
+
+def many_attributes(file, path, folder):
+    """A column of numbers that says much about itself."""
+    file[path] = [1.0, 2.0]
+    for number in range(200):
+        file[path].attrs[str(number)] = "a"
+
+
+def large_piece(file, path, folder):
+    """Two numbers, kept in a piece of very many."""
+    file.create_dataset(path, data=[1.0, 2.0], maxshape=(None,), chunks=(MANY,), compression="gzip")
+
+
+def pairs(file, path, folder):
+    """Records."""
+    file[path] = numpy.zeros(2, dtype=[("one", float), ("other", float)])
+
+
 def value(content):
     """Another value."""
     def write(file, path, folder):
@@ -115,10 +151,13 @@ OF_CASE = {  # what is made of CASE.h5: path, how
     "a number for a case": (FILE, value(7)), "a column of text": (GAP, value(["a", "b"])), "a table": (GAP, value([[1.0], [2.0]])),
     "infinite": (GAP, value([1.0, numpy.inf])), "one number": (GAP, value(1.0)), "a long column": (GAP, value(numpy.zeros(5))),
     "zeros": (GAP, zeros), "never written": (GAP, never_written), "dynamics of zeros": ("dynamics/stiffness", zeros),
-    "dynamics of a link": ("dynamics/stiffness", other_file), "a summary of a link": ("summary/minimum_gap", other_file)}
+    "deep": (GAP, deep), "deep, elsewhere": ("provenance/host", deep), "many names": ("provenance/host", many_names),
+    "many attributes": (GAP, many_attributes), "large piece": (GAP, large_piece), "records": (GAP, pairs), "records, elsewhere": ("dynamics/stiffness", pairs),
+    "a long echo": (USED, value("&scene title = 'a' /\n! " + "x"*5_000_000)), "dynamics of a link": ("dynamics/stiffness", other_file), "a summary of a link": ("summary/minimum_gap", other_file)}
 PRESSURE = "VTKHDF/PointData/pressure"
 OF_FILM = {"of a link": (PRESSURE, other_file), "points of a link": ("VTKHDF/Points", other_file), "virtual": (PRESSURE, virtual),
-           "outside": (PRESSURE, outside), "zeros": (PRESSURE, zeros), "never written": (PRESSURE, never_written), "soft": (PRESSURE, soft)}
+           "outside": (PRESSURE, outside), "zeros": (PRESSURE, zeros), "never written": (PRESSURE, never_written), "soft": (PRESSURE, soft),
+           "deep": (PRESSURE, deep), "many names": (PRESSURE, many_names), "records": (PRESSURE, pairs)}
 
 
 OF_RESTART = {  # what is made of CASE.restart.h5: path, how, words of the program
@@ -263,6 +302,56 @@ class ForeignTest(unittest.TestCase):
         case = gfb.Case.parse("&a b = " + "1.0 "*100_000 + "/")
         self.assertEqual(len(case["a%b"]), 100_000)
         self.assertLess(time.perf_counter() - begin, 10.0)
+
+    def test_a_group_or_a_name_that_is_not_there(self):
+        """Each in turn: a sentence, or a page without it."""
+        path, page = self.folder/"case.h5", self.folder/"out.html"
+        with h5py.File(path) as file:
+            names = ["summary", "history", "scene", "provenance", "dynamics", *(f"summary/{name}" for name in file["summary"])]
+        with unittest.mock.patch.object(report_main, "drawn", lambda *_: ""):
+            for name in names:
+                path.write_bytes(self.whole[path])
+                with h5py.File(path, "r+") as file:
+                    del file[name]
+                status, said = call(report_main.main, path, "-o", page, "--gfb", "/bin/true")
+                self.assertEqual((status, said.count("\n") if status else 1), (status and 1, 1), f"{name}: {said}")
+
+    def test_keys_and_results_of_another_kind(self):
+        """What a page says first, of a case without a group, or with words, lists and infinities in the place of numbers."""
+        groups = {"bearing": ("radius", "length", "clearance", "inner_radius", "outer_radius", "leading_edge_angle"), "operation": ("load", "axial_load", "speed_rpm"),
+                  "pads": ("count", "arc", "gap", "first_leading_edge"), "rotor": ("mass",), "shaft_contact": ("roughness",)}
+        names = {name for name in re.findall(r"[\"'](\w+)[\"']", (PROJECT/"tools/gfb/report/glance.py").read_text(encoding="utf-8"))}
+        results = {name: {"value": 1.0, "unit": "m", "meaning": ""} for name in names}
+        others = (None, "words", True, (), (1.0, 2.0, 3.0), ("a", "b"), math.nan, math.inf, 0, -1, 0.0, 1e300, 10**400, 10**9)
+        begin = time.perf_counter()
+        for group, keys in groups.items():
+            for key in (*keys, None):
+                for other in others if key else (None,):
+                    case = gfb.Case({name: {one: (1.0, 2.0) if one == "load" else 2 for one in ones} for name, ones in groups.items() if key or name != group})
+                    if key and other is None:
+                        del case[f"{group}%{key}"]
+                    elif key:
+                        case[f"{group}%{key}"] = other
+                    for found in (results, results | {"minimum_gap_radius": results["minimum_gap_radius"] | {"value": "words"}}):
+                        self.assertTrue(glance(found, case))
+                        sketch(found, case)
+        for name in results:
+            for other in ("words", math.nan, math.inf):
+                changed = results | {name: results[name] | {"value": other}}
+                for found in (changed, {one: row for one, row in results.items() if one != name}):
+                    glance(found, case)
+                    sketch(found, case)
+        self.assertLess(time.perf_counter() - begin, 60.0)
+
+    def test_texts_that_are_no_files_or_long(self):
+        """A pipe is not waited for."""
+        path = self.folder/"odd.summary"
+        for make in (lambda: os.mkfifo(path), lambda: path.write_bytes(b"a = 1.0 [m]\n"*500_000), path.mkdir):
+            make()
+            for read in (read_summary, gfb.Case.read):
+                with self.assertRaises(Unfit):
+                    read(path)
+            (path.rmdir if path.is_dir() else path.unlink)()
 
     def test_packages_and_kinds_of_picture(self):
         """What Python or the environment lacks is one sentence of a tool, too."""

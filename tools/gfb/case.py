@@ -12,6 +12,7 @@ import sysconfig
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Union
 
+from gfb.files import read_text
 from gfb.namelist import namelist_value
 from gfb.tool import ROOT
 
@@ -60,7 +61,7 @@ class Case:
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Case:
         """A case file."""
-        return cls.parse(pathlib.Path(path).read_text(encoding="utf-8"))
+        return cls.parse(read_text(path))
 
     @classmethod
     def parse(cls, text: str) -> Case:

@@ -16,6 +16,7 @@ import numpy
 import xarray
 
 from gfb.case import Case, CaseError, launcher, program
+from gfb.files import read_text
 from gfb.reading import read
 from gfb.results import read_summary
 
@@ -135,7 +136,7 @@ def call(command: Sequence[str]) -> subprocess.CompletedProcess[str]:
 def find_member(case: Case, stem: pathlib.Path) -> tuple[int, dict[str, Any], dict[str, str]] | None:
     """Status, summary and units of a member; None where it is not there."""
     path = stem.with_name(stem.name + ".nml")
-    if not path.exists() or path.read_text(encoding="utf-8") != str(case):
+    if not path.exists() or read_text(path) != str(case):
         return None
     if (summary := stem.with_name(stem.name + ENDINGS[DONE])).exists():
         return DONE, *read_summary(summary)

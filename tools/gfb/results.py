@@ -4,6 +4,7 @@ import contextlib
 import csv
 import dataclasses
 import json
+import os
 import pathlib
 import re
 import zlib
@@ -12,6 +13,7 @@ import h5py
 import numpy
 
 from gfb import guard
+from gfb.files import Unfit, is_kept, opened, read_text
 
 # Names of the summary that say what the answer cost, not what it is.
 COST = {"unknowns", "newton_iterations", "factorizations", "factorizations_finest", "wall_time", "peak_memory"}
@@ -26,7 +28,7 @@ PLAIN = b"gfb crc32 ******** ****************\n"  # what of it is always there
 BROKEN = (OSError, KeyError, IndexError, ValueError, TypeError, RuntimeError, AttributeError, ArithmeticError, MemoryError)
 
 
-class Unreadable(OSError):
+class Unreadable(Unfit):
     """A result file that is damaged, cut or none of this gfb; says so in one line."""
 
 
@@ -37,6 +39,8 @@ def reading(path):
         yield
     except (Unreadable, FileNotFoundError):
         raise
+    except Unfit as error:
+        raise Unreadable(str(error)) from error
     except BROKEN as error:
         words = " ".join(str(error).split()) or type(error).__name__
         raise Unreadable(f"{path}: not a whole file of this gfb: {words}") from error
@@ -45,11 +49,16 @@ def reading(path):
 def open_results(path):
     """An HDF5 file of gfb for reading; OSError where its bytes do not fit its checksum, and where guard.look_through refuses it.
     One without checksum, of an older version or another program, is read as it is."""
-    path = pathlib.Path(path)
-    if path.exists() and not path.is_file():
-        raise Unreadable(f"{path}: no file, but a folder or a device")
-    size = compare_seal(path)
-    file = h5py.File(path, "r")
+    try:
+        number = opened(path)
+    except Unfit as error:
+        raise Unreadable(str(error)) from None
+    try:
+        size = compare_seal(number)
+        # Kept within a folder, it must be the file that was looked at; HDF5 knows names alone.
+        file = h5py.File(f"/proc/self/fd/{number}" if is_kept() else path, "r")
+    finally:
+        os.close(number)
     try:
         with reading(path):
             guard.look_through(file, size)
@@ -59,9 +68,9 @@ def open_results(path):
     return file
 
 
-def compare_seal(path):
-    """Bytes of a file, which must fit its checksum where it has one."""
-    with open(path, "rb") as content:
+def compare_seal(number):
+    """Bytes of an open file, which must fit its checksum where it has one."""
+    with open(number, "rb", closefd=False) as content:
         length = content.seek(0, 2)
         content.seek(max(0, length - SEAL_LENGTH))
         tail = content.read()
@@ -97,7 +106,7 @@ def read_summary(path):
     """{name: number or word} and {name: unit} of a summary file."""
     values, units = {}, {}
     with reading(path):
-        for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
+        for line in read_text(path).splitlines():
             name, rest = line.split(" = ", 1)
             word, _, unit = rest.partition(" [")
             units[name] = unit.rstrip("]")
@@ -127,7 +136,7 @@ def read_film(path):
 def read_json(path, *names):
     """What a tool has kept in a JSON file; under the names given, which must be there."""
     with reading(path):
-        content = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+        content = json.loads(read_text(path))
         return tuple(content[name] for name in names) if names else content
 
 

@@ -8,6 +8,7 @@ import re
 import h5py
 import numpy
 
+from gfb.files import read_text
 from gfb.results import Unreadable, open_results, reading
 
 # What two runs of one program on one case need not have alike; nothing else is left out. A name without a folder holds
@@ -27,6 +28,7 @@ EXCLUDED = {
 }
 ANSWERS = (".h5", ".vtkhdf", ".summary", ".nml", ".csv")  # endings of what gfb leaves
 HDF5 = (".h5", ".vtkhdf")
+MOST_LINES = 2**28  # bytes of a text, such as the points of a long motion
 RESTART = ".restart.h5"  # two of different formats are not compared: what the runs that go on from them answer is
 
 
@@ -166,7 +168,7 @@ def relative_difference(one, other):
 def lines_of(path):
     """Lines of a text file."""
     with reading(path):
-        return path.read_text(encoding="utf-8").splitlines()
+        return read_text(path, most=MOST_LINES).splitlines()
 
 
 def keys_of(lines):

@@ -6,7 +6,9 @@ import math
 from gfb.tables import readable_unit
 
 MOST_POINTS = 40  # of an arc of the sketch
+MOST_PADS = 1000  # that are drawn: more are none of gfb
 KELVIN = 273.15
+MOST = 1.0e100  # of a number of a case
 
 
 class Results:
@@ -21,9 +23,14 @@ class Results:
         return value if isinstance(value, float) and math.isfinite(value) else None
 
     def key(self, name, default=None):
-        """A number of the case."""
-        value = self.case[name] if name in self.case else default
-        return value if not isinstance(value, (bool, str)) else default
+        """A number of the case; what is none, of a case that is not gfb's, is not there."""
+        value = self.case[name] if name in self.case else None
+        return float(value) if is_number(value) else default
+
+    def pair(self, name):
+        """Two numbers of the case; None where there are none."""
+        value = self.case[name] if name in self.case else None
+        return value if isinstance(value, tuple) and len(value) == 2 and all(map(is_number, value)) else None
 
     def words(self, name):
         """A result in readable units, with its error where that is known; empty where there is none."""
@@ -33,6 +40,11 @@ class Results:
         unit, scale = readable_unit(self.summary[name]["unit"], name)
         error = self.value(f"{name}_error")
         return f"{scale*value:.4g}" + (f" ± {scale*error:.2g}" if error is not None else "") + (f" {unit}" if unit != "1" else "")
+
+
+def is_number(value):
+    """Whether a value of a case is one that can be computed with."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= MOST
 
 
 def glance(summary, case):
@@ -48,7 +60,7 @@ def film(results):
         return
     where, edge, middle = "", results.value("minimum_gap_edge"), results.value("minimum_gap_midplane")
     if results.value("minimum_gap_radius") is not None:
-        where = f"at radius {1.0e3*results.value('minimum_gap_radius'):.3g} mm, {math.degrees(results.value('minimum_gap_angle')):.0f} deg"
+        where = f"at radius {1.0e3*results.value('minimum_gap_radius'):.3g} mm, {math.degrees(results.value('minimum_gap_angle') or 0.0):.0f} deg"
     elif edge is not None and middle is not None and max(edge, middle) > 1.02*min(edge, middle):
         where = "at the bearing's edge" if edge < middle else "at the midplane"
     rough = results.key("shaft_contact%roughness")
@@ -63,8 +75,8 @@ def carried_by(case):
     axial = results.key("operation%axial_load")
     if axial is not None:
         return abs(float(axial))
-    both = results.key("operation%load")
-    return math.hypot(*both) if isinstance(both, tuple) and len(both) == 2 else None
+    both = results.pair("operation%load")
+    return math.hypot(*both) if both else None
 
 
 def load(results):
@@ -72,7 +84,7 @@ def load(results):
     force = results.value("axial_force")
     if force is not None:
         yield "load on the runner", f"{force:.4g} N", f"{results.words('mean_pressure')} over the pads", False
-    elif results.value("force_x") is not None:
+    elif results.value("force_x") is not None and results.value("force_y") is not None:
         force = math.hypot(results.value("force_x"), results.value("force_y"))
         radius, length = results.key("bearing%radius"), results.key("bearing%length")
         area = f"{1.0e-3*force/(2.0*radius*length):.3g} kPa over length times diameter" if radius and length else ""
@@ -168,28 +180,30 @@ def heat(results):
 def sketch(summary, case):
     """Lines of a picture, 200 x 200, x to the right and y up: pads, load and thinnest film; None where there is no film."""
     results = Results(summary, case)
-    if results.value("minimum_gap") is None:
-        return None
     count = int(results.key("pads%count", 1) or 1)
+    if results.value("minimum_gap") is None or not 0 < count <= MOST_PADS:
+        return None
     first = results.key("pads%first_leading_edge", results.key("bearing%leading_edge_angle", 0.0)) or 0.0
     arc = results.key("pads%arc") or 2.0*math.pi/count - (results.key("pads%gap") or 0.0) - (first if count == 1 else 0.0)
-    ring = results.value("minimum_gap_radius") is not None
+    ring, outer = results.value("minimum_gap_radius") is not None, results.key("bearing%outer_radius")
+    if ring and not outer:
+        return None
     drawn = {"pads": [], "shaft": not ring, "load": None, "thinnest": None, "ring": ring}
-    inner = 85.0*(results.key("bearing%inner_radius") or 0.5)/results.key("bearing%outer_radius") if ring else 72.0
+    inner = 85.0*(results.key("bearing%inner_radius") or 0.5)/outer if ring else 72.0
     for pad in range(count):
         begins = first + 2.0*math.pi*pad/count
         outside = [place(85.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS + 1)]
         inside = [place(inner if ring else 80.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS, -1, -1)]
         drawn["pads"].append(" ".join(f"{x:.1f},{y:.1f}" for x, y in outside + inside))
     if ring:
-        at = 85.0*results.value("minimum_gap_radius")/results.key("bearing%outer_radius")
-        drawn["thinnest"] = place(at, results.value("minimum_gap_angle"))
-    elif results.value("eccentricity_x") is not None:
+        at = 85.0*results.value("minimum_gap_radius")/outer
+        drawn["thinnest"] = place(at, results.value("minimum_gap_angle") or 0.0)
+    elif results.value("eccentricity_x") is not None and results.value("eccentricity_y") is not None:
         e = -results.value("eccentricity_x"), -results.value("eccentricity_y")
         size = math.hypot(*e)
         drawn["thinnest"] = place(76.0, math.atan2(e[1], e[0])) if size > 0.0 else None
-        both = results.key("operation%load")
-        if isinstance(both, tuple) and math.hypot(*both) > 0.0:
+        both = results.pair("operation%load")
+        if both and math.hypot(*both) > 0.0:
             drawn["load"] = (*place(8.0, math.atan2(both[1], both[0])), *place(50.0, math.atan2(both[1], both[0])))
     return drawn
 
