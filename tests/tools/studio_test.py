@@ -3,12 +3,14 @@
 
 import asyncio
 import base64
+import concurrent.futures
 import contextlib
 import http.client
 import math
 import os
 import pathlib
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -21,6 +23,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 from chromium import BROWSER, Browser  # noqa: E402
 from gfb.case import Case, program  # noqa: E402
 from gfb.namelist import namelist_value  # noqa: E402
+from gfb.results import Unreadable  # noqa: E402
+from gfb.studio import pictures  # noqa: E402
 from gfb.studio.checking import check, read_messages  # noqa: E402
 from gfb.studio.keys import read_keys  # noqa: E402
 from gfb.studio.runs import Folder, Refused, Run, Runs  # noqa: E402
@@ -217,10 +221,89 @@ class Places(InFolder):
 
     def test_a_run_never_gets_the_folder_of_another(self):
         place = Folder(self.folder)
-        made = [place.new_run("small") for _ in range(3)]
+        made = [place.new_run("small", SMALL) for _ in range(3)]
         self.assertEqual([path.name for path in made], ["small.run1", "small.run2", "small.run3"])
-        made[1].rmdir()
-        self.assertEqual(place.new_run("small").name, "small.run2")
+        shutil.rmtree(made[1])
+        self.assertEqual(place.new_run("small", SMALL).name, "small.run2")
+        (self.folder/"small.run4").symlink_to(self.outside)
+        self.assertEqual(place.new_run("small", SMALL).name, "small.run5")
+        self.assertEqual([path.name for path in self.outside.iterdir() if path.is_file()], ["secret.nml"])
+
+    def test_only_files_are_opened_and_written(self):
+        """A pipe is not waited for, what is too large is not read, and no link is followed: neither to read nor to write."""
+        place, secret = Folder(self.folder), self.outside/"secret.nml"
+        os.mkfifo(self.folder/"pipe.nml")
+        (self.folder/"folder.nml").mkdir()
+        (self.folder/"gone.nml").symlink_to(self.outside/"new.nml")
+        (self.folder/"link.nml").symlink_to(secret)
+        with open(self.folder/"large.nml", "wb") as large:
+            large.truncate(3*2**30)
+        begin = time.monotonic()
+        for name in ("pipe", "folder", "gone", "link", "large"):
+            for known in (None, "", SMALL, secret.read_text(encoding="utf-8")):
+                with self.assertRaises(Refused, msg=name):
+                    place.write(name, "mine", known)
+            with self.assertRaises(Refused, msg=name):
+                place.read(f"{name}.nml")
+        self.assertLess(time.monotonic() - begin, 20.0)
+        self.assertEqual(secret.read_text(encoding="utf-8"), "&scene title = 'secret words' /\n")
+        self.assertFalse((self.outside/"new.nml").exists())
+        self.assertEqual((self.folder/"large.nml").stat().st_size, 3*2**30)
+        self.assertEqual(place.cases(), ["large.nml", "small.nml"])
+
+    def test_nobody_foresees_the_name_under_which_a_file_is_written(self):
+        place = Folder(self.folder)
+        for number in (os.getpid(), 0):
+            (self.folder/f".small.nml.{number}").symlink_to(self.outside/"secret.nml")
+        place.write("small", "mine", SMALL)
+        place.write("new", "mine", None)
+        self.assertEqual([(self.folder/f"{name}.nml").read_text(encoding="utf-8") for name in ("small", "new")], ["mine", "mine"])
+        self.assertEqual((self.outside/"secret.nml").read_text(encoding="utf-8"), "&scene title = 'secret words' /\n")
+        self.assertEqual(len([path for path in self.folder.iterdir() if not path.is_symlink()]), 2)
+
+    def test_of_two_tabs_that_save_at_a_time_one_does(self):
+        place = Folder(self.folder)
+
+        def save(text):
+            with contextlib.suppress(Refused):
+                place.write("small", text, SMALL)
+                return text
+            return None
+        with concurrent.futures.ThreadPoolExecutor(8) as pool:
+            done = [text for text in pool.map(save, map(str, range(40))) if text]
+        self.assertEqual([(self.folder/"small.nml").read_text(encoding="utf-8")], done)
+
+    def test_what_stands_beside_a_result_is_no_link(self):
+        """Neither the result nor a companion of it is taken from elsewhere, or waited for."""
+        place, elsewhere = Folder(self.folder), self.outside/"elsewhere"
+        run = self.folder/"small.run1"
+        for folder in (run, elsewhere):
+            subprocess.run([program(), "--quiet", "--output", folder, self.folder/"small.nml"], check=True, stdout=subprocess.DEVNULL)
+        (self.folder/"link.run1").symlink_to(elsewhere)
+        self.assertEqual(place.results(), ["small.run1/small"])
+        whole = pictures.read_result(place, "small.run1/small")
+        self.assertIn("film: pressure", whole["pictures"])
+        self.assertTrue(pictures.draw_result(place, whole["stem"], "film: pressure")["data"])
+        for name in ("link.run1/small", "../elsewhere/small", "none/small"):
+            with self.assertRaises((Refused, OSError), msg=name):
+                pictures.read_result(place, name)
+        for ending in (".h5", ".summary", ".film.vtkhdf", ".top_foil.vtkhdf"):
+            path = run/f"small{ending}"
+            kept = path.read_bytes() if path.exists() else None
+            for make in (lambda path, ending: path.symlink_to(elsewhere/f"small{ending if ending != '.top_foil.vtkhdf' else '.film.vtkhdf'}"),
+                         lambda path, ending: os.mkfifo(path), lambda path, ending: path.mkdir()):
+                path.unlink(missing_ok=True)
+                make(path, ending)
+                with self.assertRaises(Unreadable) as told:
+                    pictures.read_result(place, "small.run1/small")
+                self.assertIn(path.name, str(told.exception))
+                if ending == ".film.vtkhdf":
+                    with self.assertRaises(Unreadable):
+                        pictures.draw_result(place, whole["stem"], "film: pressure")
+                (path.rmdir if path.is_dir() and not path.is_symlink() else path.unlink)()
+            if kept is not None:
+                path.write_bytes(kept)
+        self.assertTrue(pictures.read_result(place, "small.run1/small")["glance"])
 
 
 class Processes(InFolder):
@@ -403,6 +486,30 @@ class ServerTest(Served):
                          if line.split()[3] == "0A" and line.split()[1].endswith(f":{self.port:04X}")]
             self.assertEqual(listening, [f"0100007F:{self.port:04X}"])
 
+    def test_what_is_no_page_of_its_own_is_a_line_each(self):
+        """A page that is fetched and not opened, and frames that are junk."""
+        key = base64.b64encode(os.urandom(16)).decode()
+        head = (f"GET {self.root}_nicegui_ws/socket.io/?EIO=4&transport=websocket HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nUpgrade: websocket\r\n"
+                f"Connection: Upgrade\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n").encode()
+        junk = (b"", b"junk", b"9", b"4junk", b"42{", b'42["handshake"]', b'42["handshake",{"x":1}]', b'42["event",1]', b"4" + b"2"*100,
+                b'451-["a",{"_placeholder":true,"num":9}]', b"\xff\xfe")
+        for payload in junk:
+            with socket.create_connection(("127.0.0.1", self.port), timeout=20) as wire:
+                wire.sendall(head)
+                wire.recv(4096)
+                for words in (b"40", payload):
+                    wire.sendall(bytes([0x81, 0x80 | len(words), 0, 0, 0, 0]) + words)
+                    time.sleep(0.1)
+        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as wire:
+            wire.sendall(b"junk\r\n\r\n")
+            wire.recv(4096)
+        self.assertEqual(self.ask(self.root)[0], 200)
+        self.end()
+        lines = self.complaint.splitlines()
+        self.assertEqual([line for line in lines if not line.startswith("gfb studio: ")], [])
+        self.assertLessEqual(len(lines), 2*len(junk))
+        self.assertGreater(len(lines), 2)
+
     def test_it_ends_by_a_signal_and_says_nothing_more(self):
         self.end()
         self.assertEqual((self.server.returncode in (0, -signal.SIGTERM, 128 + signal.SIGTERM), self.complaint), (True, ""))
@@ -536,7 +643,7 @@ class BrowserTest(Served):
     def test_what_is_outside_is_not_opened(self):
         for name in ("../secret.nml", "link.nml", str(self.outside/"secret.nml")):
             page = self.open(name.replace("/", "%2F"))
-            page.wait("document.body.innerText.includes('outside the chosen folder')")
+            page.wait("/outside the chosen folder|a link, which is not followed/.test(document.body.innerText)")
             self.assertNotIn("secret words", page.run("document.documentElement.outerHTML"))
 
     def test_two_tabs(self):

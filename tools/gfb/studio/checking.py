@@ -52,7 +52,7 @@ def read_messages(said):
 
 
 async def check(gfb, text):
-    """Has the program check a text; not where a .petscrc may lie that is not the user's own."""
+    """Has the program check a text; in the root, where nobody else leaves a file."""
     process = await asyncio.create_subprocess_exec(gfb, "--check", "-", stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
                                                    stderr=asyncio.subprocess.PIPE, cwd="/")
     try:

@@ -9,16 +9,20 @@ machine reaches the page (127.0.0.1), and only who knows the address, of which a
 
 import asyncio
 import contextlib
+import logging
 import os
 import pathlib
 import secrets
 import socket
+import traceback
 
 from gfb.case import program
 from gfb.tool import draw_into_files, parser_of, stop
 
 HOST = "127.0.0.1"
 GOODBYE = 2  # s for what is still being sent
+SHOWN = 200  # letters of what is said of something that went wrong
+TALKING = ("engineio.server", "socketio.server")  # they would say everything in their own way, too
 
 
 def main():
@@ -48,8 +52,30 @@ def main():
     return 0
 
 
+class OneLine(logging.Formatter):
+    """What goes wrong in a line: what a browser, or somebody else, sends may be anything."""
+
+    def format(self, record):
+        words = [(record.getMessage().splitlines() or [""])[0].strip()]
+        if record.exc_info and record.exc_info[1] is not None:
+            error = record.exc_info[1]
+            words.append(" ".join(f"{type(error).__name__}: {error}".split()))
+            words += [f"{pathlib.Path(one.filename).name}, line {one.lineno}" for one in traceback.extract_tb(error.__traceback__)[-1:]]
+        return "gfb studio: " + "; ".join(one[:SHOWN] for one in words)
+
+
+def say_in_lines():
+    """From now on what goes wrong is a line each."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(OneLine())
+    logging.basicConfig(handlers=[handler], level=logging.WARNING, force=True)
+    for name in TALKING:
+        logging.getLogger(name).setLevel(logging.ERROR)  # to one with a level they add nothing
+
+
 def serve(door, folder, gfb):
     """Serves the page until a signal comes."""
+    say_in_lines()
     os.environ.setdefault("NICEGUI_STORAGE_PATH", os.devnull)  # nothing is kept in files
     import uvicorn
     from fastapi import FastAPI
@@ -62,7 +88,7 @@ def serve(door, folder, gfb):
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     make_page(folder, gfb)
     ui.run_with(app, mount_path=f"/{token}", title="gfb studio", tailwind=False, show_welcome_message=False, reconnect_timeout=30.0)
-    server = uvicorn.Server(uvicorn.Config(Guard(app, {f"{HOST}:{port}", f"localhost:{port}"}), loop="asyncio", log_level="warning", timeout_graceful_shutdown=GOODBYE,
+    server = uvicorn.Server(uvicorn.Config(Guard(app, {f"{HOST}:{port}", f"localhost:{port}"}), loop="asyncio", log_level="warning", log_config=None, timeout_graceful_shutdown=GOODBYE,
                                            lifespan="on", server_header=False, ws_max_size=2**24))
     print(f"gfb studio: http://{HOST}:{port}/{token}/", flush=True)
     print(f"cases and runs are in {folder.resolve()}; Ctrl-C ends it, and the runs that it began", flush=True)

@@ -4,6 +4,7 @@ import asyncio
 import pathlib
 
 from nicegui import app, background_tasks, ui
+from nicegui import run as workers
 
 from gfb.case import Case, CaseError
 from gfb.namelist import namelist_value
@@ -33,8 +34,11 @@ def make_page(folder, gfb):
     async def page(case: str = ""):
         tab = Tab(place, keys, runs, gfb)
         tab.build()
-        await ui.context.client.connected()
-        tab.begin(app.storage.tab, case)
+        try:
+            await ui.context.client.connected()
+        except TimeoutError:
+            return  # a page that somebody has fetched without opening it
+        await tab.begin(app.storage.tab, case)
 
 
 class Tab:
@@ -91,25 +95,26 @@ class Tab:
                 with ui.expansion("what the scene needs").classes("wide"):
                     self.needs = ui.label("").classes("log")
 
-    def begin(self, kept, case):
+    async def begin(self, kept, case):
         """Fills the page: with what this tab had before it was loaded again, a case of the folder, or the program's first example."""
         self.kept = kept
-        self.list_cases()
+        await self.list_cases()
+        await self.results.list()
         if case and kept.get("asked") != case:
             kept["asked"] = case
-            self.open(case)
+            await self.open(case)
         elif "text" in kept:
             self.known, self.name.value = kept["known"], kept["name"]
             self.take(kept["text"])
         else:
-            self.template("equilibrium")
+            await self.template("equilibrium")
 
     # --- files ---
 
-    def list_cases(self):
+    async def list_cases(self):
         """The case files of the folder, and the program's own examples, as the program names them."""
         analyses = [*self.keys["scene"]["analysis"].choices, *(word for word in self.keys["bearing"]["kind"].choices if word == "thrust")]
-        options = {name: name for name in self.folder.cases()} | {f"template {one}": f"new: {one.replace('_', ' ')}" for one in analyses}
+        options = {name: name for name in await workers.io_bound(self.folder.cases)} | {f"template {one}": f"new: {one.replace('_', ' ')}" for one in analyses}
         self.opening.set_options(options, value=None)
 
     async def open_chosen(self, event):
@@ -117,13 +122,13 @@ class Tab:
         if not event.value:
             return
         if self.text not in (self.known, self.untouched) and not await self.may_replace():
-            return self.list_cases()
+            return await self.list_cases()
         first, _, analysis = event.value.partition(" ")
         if first == "template":
-            self.template(analysis)
+            await self.template(analysis)
         else:
-            self.open(event.value)
-        self.list_cases()
+            await self.open(event.value)
+        await self.list_cases()
 
     async def may_replace(self):
         """Asks before what was not saved is lost."""
@@ -134,35 +139,36 @@ class Tab:
                 ui.button("Replace it", on_click=lambda: dialog.submit(True)).props("outline")
         return await dialog
 
-    def template(self, analysis):
+    async def template(self, analysis):
         """A case of the program's own."""
         try:
-            text = str(Case.template(analysis, self.gfb))
+            text = str(await workers.io_bound(Case.template, analysis, self.gfb))
         except CaseError as error:
             return complain(error)
         self.known, self.untouched, self.name.value = None, text, analysis
         self.take(text)
 
-    def open(self, name):
+    async def open(self, name):
         """A case file of the folder."""
         try:
-            text = self.folder.read(name)
+            text = await workers.io_bound(self.folder.read, name)
         except (Refused, OSError) as error:
             complain(error)
             return self.take(self.text or EMPTY)
         self.known, self.name.value = text, name.removesuffix(CASE)
         self.take(text)
 
-    def save(self):
+    async def save(self):
         """Writes the case file."""
+        name, text = self.name.value, self.text
         try:
-            self.folder.write(self.name.value, self.text, self.known)
+            await workers.io_bound(self.folder.write, name, text, self.known)
         except (Refused, OSError) as error:
             return complain(error)
-        self.known = self.text
+        self.known = text
         self.remember()
-        self.list_cases()
-        ui.notify(f"{self.name.value}{CASE} is written", type="positive")
+        await self.list_cases()
+        ui.notify(f"{name}{CASE} is written", type="positive")
 
     def remember(self):
         """Keeps what would be lost where the tab is loaded again."""

@@ -6,11 +6,13 @@ import pathlib
 
 import numpy
 
+from gfb.files import kept_within
 from gfb.plot.foil import is_foil, names, round_scale, shape_of
 from gfb.plot.ring import TRAVEL
 from gfb.plot.rolled import drawn_larger, paths_of, read_shaft, read_surface
 from gfb.plot.scene import scene_of
 from gfb.reading import surface
+from gfb.report.main import read_run
 from gfb.results import attribute, open_results, reading
 from gfb.tables import readable
 
@@ -20,6 +22,20 @@ LOOK = {"margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "font": {"size": 11}, "mode
 EYE = {"x": 1.35, "y": -1.75, "z": 1.05}  # from where a surface is seen, its sides being about 1
 MODES = {"responsive": True, "displaylogo": False}
 POINTS_PICTURE, FOILS, POINT = "points", "foils", "number of the point or step"
+
+
+def read_result(folder, name):
+    """A result of a folder, as the page of tools/report has it, and its pictures; none of its files is a link, or lies elsewhere."""
+    stem = folder.inside(name)
+    with kept_within(folder.path):
+        run = read_run(stem, None, pictures=False)
+        return run | {"stem": stem, "name": name, "pictures": pictures(stem), "columns": columns_of(stem)}
+
+
+def draw_result(folder, stem, name):
+    """A picture of it, from such files; None where it cannot be drawn."""
+    with kept_within(folder.path):
+        return draw(stem, name)
 
 
 def pictures(stem):

@@ -3,10 +3,10 @@
 from nicegui import run as workers
 from nicegui import ui
 
-from gfb.report.main import PAGE, answer_rows, key_rows, read_run
+from gfb.report.main import PAGE, answer_rows, key_rows
 from gfb.results import Unreadable
 from gfb.studio import pictures
-from gfb.studio.runs import RESULT, Refused
+from gfb.studio.runs import Refused
 
 MOST = 6  # results side by side
 
@@ -23,18 +23,17 @@ class ResultsView:
             self.chooser = ui.select([], label="results, several side by side", multiple=True, on_change=self.chosen) \
                 .props("use-chips").classes("chooser wide").mark("results").on("popup-show", self.list)
         self.room = ui.column().classes("wide")
-        self.list()
 
-    def list(self):
+    async def list(self):
         """The results that there are."""
-        there = self.folder.results()
+        there = await workers.io_bound(self.folder.results)
         options = list(dict.fromkeys([*there, *self.chooser.value]))
         if options != self.chooser.options:
             self.chooser.set_options(options)
 
     async def add(self, name):
         """Shows one more."""
-        self.list()
+        await self.list()
         if name in self.chooser.options and name not in self.chooser.value:
             self.chooser.set_value([*self.chooser.value, name][-MOST:])
 
@@ -48,7 +47,7 @@ class ResultsView:
         self.shown, read = names, {}
         for name in names:
             try:
-                read[name] = self.found.get(name) or await workers.io_bound(read_one, self.folder.inside(name + RESULT), name)
+                read[name] = self.found.get(name) or await workers.io_bound(pictures.read_result, self.folder, name)
             except (Refused, Unreadable, OSError) as error:
                 ui.notify(str(error), type="negative", multi_line=True)
         if names == self.shown:  # not chosen anew meanwhile
@@ -93,7 +92,13 @@ class ResultsView:
             self.drawn.clear()
             with self.drawn:
                 return show_points(runs)
-        figures = [(run, await workers.io_bound(pictures.draw, run["stem"], name)) for run in runs if name in run["pictures"]]
+        figures = []
+        for run in runs:
+            if name in run["pictures"]:
+                try:
+                    figures.append((run, await workers.io_bound(pictures.draw_result, self.folder, run["stem"], name)))
+                except OSError as error:  # it may be another file by now
+                    ui.notify(str(error), type="negative", multi_line=True)
         if name != self.kind.value:
             return
         same_colours([figure for _, figure in figures if figure])
@@ -107,13 +112,6 @@ class ResultsView:
                         ui.plotly(figure).classes("wide")
                     else:
                         ui.label("cannot be drawn of this result")
-
-
-def read_one(path, name):
-    """A result, as the page of tools/report has it, and its pictures."""
-    stem = str(path).removesuffix(RESULT)
-    run = read_run(path.with_name(path.name.removesuffix(RESULT)), None, pictures=False)
-    return run | {"stem": stem, "name": name, "pictures": pictures.pictures(stem), "columns": pictures.columns_of(stem)}
 
 
 def show_answer(run, number):

@@ -2,13 +2,16 @@
 
 import asyncio
 import contextlib
+import itertools
 import os
 import pathlib
 import re
 import shutil
 import signal
+import threading
 import time
 
+from gfb.files import Unfit, kept_within, read_text, write_inside
 from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, command_of, stem_of
 from gfb.tool import stop
 
@@ -17,7 +20,8 @@ CASE, RESULT, RESTART = ".nml", ".h5", ".restart.h5"
 STEP = re.compile(r".*?(\d+) of (\d+)")
 LINES = 2000        # of a log that are kept
 GRACE = 10.0        # s; a run that does not end on SIGTERM by then is killed
-MOST_BYTES = 2**24  # of a case file; the program refuses larger ones
+MOST_NAMES = 10_000  # of a folder that are looked at
+MOST_RUNS = 100_000  # of one name
 
 
 class Refused(ValueError):
@@ -25,73 +29,88 @@ class Refused(ValueError):
 
 
 class Folder:
-    """The chosen folder; nothing outside of it is read or written."""
+    """The chosen folder; nothing outside of it is read or written, and no link in it is followed."""
 
     def __init__(self, path):
         self.path = pathlib.Path(path).resolve()
+        self.writing = threading.Lock()  # two tabs do not write at a time
 
     def inside(self, name):
-        """The path of a name in the folder or below; Refused where it leads out of it, by dots or by a link."""
-        try:
-            path = (self.path/name).resolve()
-        except (OSError, ValueError, RuntimeError) as error:
-            raise Refused(f"no such name: {error}") from error
-        if not path.is_relative_to(self.path):
+        """The path of a name in the folder or below; Refused where it leads out of it. Whether there are links is seen where it is opened."""
+        path = self.path/name
+        if "\0" in name or ".." in path.parts or not path.is_relative_to(self.path):
             raise Refused("this lies outside the chosen folder")
         return path
 
     def cases(self):
         """Names of the case files in the folder."""
-        return self.names(f"*{CASE}", lambda name: not name.endswith(f".used{CASE}"))
+        return sorted(one.name for one in files_of(self.path) if one.name.endswith(CASE) and not one.name.endswith(f".used{CASE}"))
 
     def results(self):
         """Names of the results in the folder and the folders in it, the newest first; without their ending."""
-        found = self.names(f"*{RESULT}") + self.names(f"*/*{RESULT}")
-        found = [name for name in found if not name.endswith(RESTART)]
-        return [name.removesuffix(RESULT) for name in sorted(found, key=lambda name: -age_of(self.path/name))]
-
-    def names(self, pattern, wanted=lambda name: True):
-        """Names of files that fit a pattern and lie inside."""
         found = []
-        for path in sorted(self.path.glob(pattern)):
-            name = str(path.relative_to(self.path))
-            with contextlib.suppress(Refused):
-                if wanted(name) and not path.name.startswith(".") and self.inside(name).is_file():
-                    found.append(name)
-        return found
+        for place in (self.path, *folders_of(self.path)):
+            found += [(-age_of(one.path), str(pathlib.Path(one.path).relative_to(self.path)).removesuffix(RESULT))
+                      for one in files_of(place) if one.name.endswith(RESULT) and not one.name.endswith(RESTART)]
+        return [name for _, name in sorted(found)]
 
     def read(self, name):
         """The text of a case file."""
         path = self.inside(name)
-        if path.suffix != CASE or not path.is_file():
+        if path.suffix != CASE:
             raise Refused("there is no such case file in the chosen folder")
-        if path.stat().st_size > MOST_BYTES:
-            raise Refused(f"the case file is larger than {MOST_BYTES//2**20} MB")
-        return path.read_text(encoding="utf-8", errors="replace")
+        try:
+            with kept_within(self.path):
+                return read_text(path, errors="replace")
+        except Unfit as error:
+            raise Refused(str(error)) from error
+        except (FileNotFoundError, NotADirectoryError, ValueError) as error:
+            raise Refused("there is no such case file in the chosen folder") from error
+        except OSError as error:
+            raise Refused(f"no such name: {error}") from error
 
     def write(self, name, text, known):
         """Writes a case file; where there is one, it must hold what is known of it: another tab, or an editor, may have changed it."""
         path = self.inside(checked(name) + CASE)
-        if path.exists() and (known is None or path.read_text(encoding="utf-8", errors="replace") != known):
-            raise Refused(f"{path.name} is there with other contents: open it, or choose another name")
-        beside = path.with_name(f".{path.name}.{os.getpid()}")
-        beside.write_text(text, encoding="utf-8")
-        os.replace(beside, path)
+        other = Refused(f"{path.name} is there with other contents: open it, or choose another name")
+        with self.writing:
+            is_there = os.path.lexists(path)
+            if is_there and (known is None or self.read(path.name) != known):
+                raise other
+            try:
+                write_inside(self.path, path.name, text, replaces=is_there)
+            except FileExistsError:
+                raise other from None
 
-    def new_run(self, name):
-        """A folder that was not there before."""
-        for number in range(1, 100_000):
+    def new_run(self, name, text):
+        """A folder that was not there before, with a case file in it; its path."""
+        for number in range(1, MOST_RUNS):
             path = self.path/f"{checked(name)}.run{number}"
             with contextlib.suppress(FileExistsError):
                 path.mkdir()
+                write_inside(path, name + CASE, text, replaces=False)
                 return path
         raise Refused("there are too many runs of this name")
+
+
+def files_of(folder):
+    """Regular files of a folder, no links and none that are hidden; of very many some."""
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        return [one for one in itertools.islice(entries, MOST_NAMES) if one.is_file(follow_symlinks=False) and not one.name.startswith(".")]
+    return []
+
+
+def folders_of(folder):
+    """The same of folders."""
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        return [one.path for one in itertools.islice(entries, MOST_NAMES) if one.is_dir(follow_symlinks=False) and not one.name.startswith(".")]
+    return []
 
 
 def age_of(path):
     """When a file was written [s]; 0 where it has gone."""
     try:
-        return path.stat().st_mtime
+        return os.stat(path, follow_symlinks=False).st_mtime
     except OSError:
         return 0.0
 
@@ -162,10 +181,8 @@ class Runs:
         """Begins a run of a text."""
         if sum(run.ended is None for run in self.all) >= self.most:
             raise Refused(f"{self.most} runs at a time are as many as this machine has cores: wait, or stop one")
-        folder = self.folder.new_run(name)
+        folder = await asyncio.to_thread(self.folder.new_run, name, text)
         path = folder/(name + CASE)
-        path.write_text(text, encoding="utf-8")
-        # In its own folder: a .petscrc that somebody has put beside the case is not read.
         process = await asyncio.create_subprocess_exec(
             *self.bound, *map(str, command_of(self.gfb, path, folder)), stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.STDOUT, cwd=folder, env={**ENVIRONMENT, **os.environ}, start_new_session=True)
