@@ -303,6 +303,27 @@ class ForeignTest(unittest.TestCase):
         self.assertEqual(len(case["a%b"]), 100_000)
         self.assertLess(time.perf_counter() - begin, 10.0)
 
+    def test_steps_that_share_their_numbers(self):
+        """A million steps of one film are refused before the first is read."""
+        path = self.folder/"case.film.steps.vtkhdf"
+        whole = path.read_bytes()[:-SEAL_LENGTH]
+        for many in (10**6, 3, 0, -1):
+            path.write_bytes(whole)
+            with h5py.File(path, "r+") as file:
+                steps = file["VTKHDF/Steps"]
+                steps.attrs["NSteps"] = many
+                for name in ("PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets") if many == 10**6 else ():
+                    shape = (many, *steps[name].shape[1:])
+                    del steps[name]
+                    steps.create_dataset(name, shape=shape, dtype="int64", chunks=(min(many, 100_000), *shape[1:]), compression="gzip", fillvalue=0)
+            for main, words in ((plot_main.main, ("-o", self.folder/"out.png")), (None, ())):
+                begin = time.perf_counter()
+                status, said = call(main, path, *words) if main else told(lambda: gfb.read(path))
+                self.assertEqual((status, said.count("\n"), "VTKHDF/Steps" in said), (1, 1, True), said)
+                self.assertLess(time.perf_counter() - begin, 20.0)
+        path.write_bytes(whole)
+        self.assertEqual(gfb.read(path).sizes["point"], 2)
+
     def test_a_group_or_a_name_that_is_not_there(self):
         """Each in turn: a sentence, or a page without it."""
         path, page = self.folder/"case.h5", self.folder/"out.html"

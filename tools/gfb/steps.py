@@ -3,7 +3,9 @@
 import pathlib
 
 import h5py
+import numpy
 
+from gfb.guard import FOLDED, MODEST
 from gfb.results import attribute
 
 ENDING = ".steps.vtkhdf"
@@ -15,8 +17,16 @@ def has_steps(file):
 
 
 def count(file):
-    """How many steps it has."""
-    return int(file["VTKHDF/Steps"].attrs["NSteps"])
+    """How many steps it has. ValueError where they stand for more than the file can hold: steps may share their numbers."""
+    grid, steps = file["VTKHDF"], file["VTKHDF/Steps"]
+    many = int(steps.attrs["NSteps"])
+    if not 0 < many <= len(steps["PartOffsets"]):
+        raise ValueError(f"VTKHDF/Steps: {many:,} steps, and places of {len(steps['PartOffsets']):,}")
+    bytes_a_step = int(grid["NumberOfPoints"][...].max())*sum(data.dtype.itemsize*int(numpy.prod(data.shape[1:], dtype=float))
+                                                              for data in (grid["Points"], *grid["PointData"].values()))
+    if many*bytes_a_step > max(MODEST, FOLDED*file.id.get_filesize()):
+        raise ValueError(f"VTKHDF/Steps: {many:,} steps stand for {many*bytes_a_step:,} bytes")
+    return many
 
 
 def value(file, step):

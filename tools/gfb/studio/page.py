@@ -1,6 +1,7 @@
 """What stands on the page: the case as a form and as text, runs, results."""
 
 import asyncio
+import contextlib
 import pathlib
 
 from nicegui import app, background_tasks, ui
@@ -34,11 +35,10 @@ def make_page(folder, gfb):
     async def page(case: str = ""):
         tab = Tab(place, keys, runs, gfb)
         tab.build()
-        try:
+        with contextlib.suppress(TimeoutError):
             await ui.context.client.connected()
-        except TimeoutError:
-            return  # a page that somebody has fetched without opening it
-        await tab.begin(app.storage.tab, case)
+        if ui.context.client.has_socket_connection:  # otherwise somebody has fetched the page without opening it
+            await tab.begin(app.storage.tab, case)
 
 
 class Tab:
