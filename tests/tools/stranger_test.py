@@ -186,6 +186,21 @@ class Settings(InStrangersFolder):
             (self.folder/"matplotlibrc").unlink()
             os.mkfifo(self.folder/"matplotlibrc")  # nobody ever writes into it
 
+    def test_links_in_the_place_of_pictures(self):
+        """What is written beside a result that somebody else has made replaces a link there, and does not follow it."""
+        for path in self.place.glob("case.*"):
+            shutil.copy(path, self.folder)
+        script = self.place/"writes.py"
+        script.write_text("import pathlib, sys\nfrom gfb.report.main import read_run, write_page\n"
+                          "write_page([read_run(pathlib.Path('case'), None, pictures=False)], pathlib.Path('case.html'))\n", encoding="utf-8")
+        for name, words in (("case.film.vtkhdf.png", (TOOLS/"plot", "case.film.vtkhdf")), ("case.3d.vtkhdf", (TOOLS/"plot", "--3d", "case.h5", "-o", "a.png")),
+                            ("case.html", (sys.executable, script))):
+            (self.folder/name).symlink_to(self.own)
+            self.call(*words, PYTHONPATH=str(TOOLS))
+            self.assertFalse((self.folder/name).is_symlink(), name)
+            self.assertGreater((self.folder/name).stat().st_size, 1000, name)
+        self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".")], [])
+
     def test_a_repository_around_an_unpacked_archive(self):
         """Its settings name a program that git would call to ask what has changed."""
         self.plant(tool=f"#!/bin/sh\necho git > {self.mark}\n")

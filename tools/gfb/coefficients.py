@@ -21,6 +21,7 @@ import pathlib
 import numpy
 
 from gfb.case import Case
+from gfb.files import fresh
 from gfb.results import Unreadable, open_results, reading, text_of
 from gfb.state_space import CannotFit, fit
 from gfb.tool import parser_of, say, stop
@@ -249,7 +250,8 @@ def main():
             continue
         write = writer()
         try:
-            write(path)
+            with fresh(path) as place:
+                write(place)
         except OSError as error:
             stop(f"{path}: {error.strerror}", 3)
         print(f"written: {path}{words}")

@@ -85,6 +85,24 @@ def read_text(path, errors="strict", most=MOST_TEXT):
     return content.decode("utf-8", errors).replace("\r\n", "\n").replace("\r", "\n")
 
 
+@contextlib.contextmanager
+def fresh(path):
+    """A name beside a file, which nobody can foresee: what is written there gets the file's own when it is whole. A link in its place
+    is replaced, not followed; what is no file, such as a device that the user names, is written as it is."""
+    path = pathlib.Path(path)
+    if os.path.lexists(path) and not path.is_symlink() and not path.is_file():
+        yield path
+        return
+    beside = path.with_name(f".{secrets.token_hex(8)}.{path.name[-100:]}")
+    os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666))
+    try:
+        yield beside
+        os.replace(beside, path)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
+
+
 def write_inside(folder, name, text, replaces):
     """Writes a text of a folder: one that is new, under a name that is free (FileExistsError otherwise), or one in the place of an
     older one, as a whole, under a name that nobody can foresee until it is written."""

@@ -50,6 +50,7 @@ draw_into_files()
 from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
+from gfb.files import fresh  # noqa: E402
 from gfb.plot import animation, dynamics, foil, heat, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.colours import round_numbers  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
@@ -91,7 +92,9 @@ def main():
     more = [pathlib.Path(name) for name in options.columns if name.endswith(".h5")]
     options.columns = [name for name in options.columns if not name.endswith(".h5")]
     shown = ".3d" if options.rolled else f".{options.show}" if options.show else ""
-    picture = options.output or options.file.with_name(f"{options.file.name}{shown}{'.gif' if options.animate else '.png'}")
+    ending = ".gif" if options.animate else ".png"
+    picture = options.output or options.file.with_name(f"{options.file.name}{shown}{ending}")
+    picture = picture if picture.suffix else picture.with_name(picture.name + ending)
     with contextlib.ExitStack() as opened:
         files = [open_file(path, opened) for path in [options.file, *more]]
         try:
@@ -106,7 +109,8 @@ def main():
         except Unreadable as error:
             stop(str(error))
     try:
-        figure.savefig(picture, dpi=100)
+        with fresh(picture) as place:
+            figure.savefig(place, dpi=100)
     except BROKEN as error:
         stop(f"{picture}: {' '.join(str(error).split())}", 3)
     print(f"drawn: {picture}")
@@ -118,7 +122,8 @@ def write_animation(options, file, picture):
     if options.show or options.rolled or options.columns or options.step:
         stop("--animate goes without --show, --3d, --step and columns")
     try:
-        animation.draw(options.file, file, picture)
+        with fresh(picture) as place:
+            animation.draw(options.file, file, place)
     except (OSError, ValueError) as error:
         if isinstance(error, Unreadable):
             raise

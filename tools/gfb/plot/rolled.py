@@ -3,13 +3,13 @@
 import contextlib
 import dataclasses
 import math
-import os
 
 import h5py
 import numpy
 from matplotlib import colors, pyplot
 
 from gfb import steps
+from gfb.files import fresh
 from gfb.plot.colours import around_zero, draw_bar
 from gfb.plot.film import WORDS
 from gfb.plot.foil import round_scale
@@ -275,13 +275,8 @@ def write(path, paths, surfaces, shaft):
             every, values = [], one["VTKHDF/Steps/Values"][...]
             for step in range(steps.count(one)):
                 every.append(fields_of([surface_at(name, file, step) for name, file in files.items()], shaft))
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        with h5py.File(temporary, "w") as file:
-            fill(file.create_group("VTKHDF"), grid, every, values)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with fresh(path) as place, h5py.File(place, "w") as file:
+        fill(file.create_group("VTKHDF"), grid, every, values)
 
 
 def surface_at(name, file, step):

@@ -16,6 +16,7 @@ import tempfile
 import jinja2
 
 from gfb.case import Case, program
+from gfb.files import fresh
 from gfb.heat import HEATED, balance
 from gfb.report.glance import glance, sketch
 from gfb.report.sensitivities import sensitivities
@@ -55,7 +56,8 @@ def write_page(runs, output, study=(), heading=""):
     page = PAGE.get_template("page.html").render(runs=runs, study=study, heading=heading, answer=answer_rows(runs), keys=key_rows(runs),
                                                  origin=origin_rows(runs))
     try:
-        output.write_text(page, encoding="utf-8")
+        with fresh(output) as place:
+            place.write_text(page, encoding="utf-8")
     except OSError as error:
         stop(f"{output}: {error.strerror}", 3)
     return output
