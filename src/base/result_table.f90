@@ -65,7 +65,16 @@ module gfb_result_table
   type(result_type), parameter :: every_study(*) = [ &
     result_type('analysis', '', word, bearing + strip + modes, 'kind of analysis'), &
     result_type('converged', '1', truth, bearing + strip + modes + ensemble + sample, &
-      'whether {the answer was found}')]
+      'whether {the answer was found}'), &
+    result_type('outcome', '', word, bearing + strip + modes + sample, &
+      'how the run ended that has no answer', &
+      'of a run without an answer: `stopped` by a signal, `out_of_time` by `--time-limit`, '// &
+      '`refused`: shown that there is none, `lost`: nothing shows why, `gave_up` at a bound of '// &
+      'its work, `not_reached`: less than was asked for, `failed` in a part'), &
+    result_type('reason', '', word, bearing + strip + modes + sample + ensemble, &
+      'why there is no answer; empty where there is'), &
+    result_type('program', '', word, bearing + strip + modes + sample + ensemble, &
+      'that computed it: its version and commit', varies=.true.)]
 
   type(result_type), parameter :: sweeps(*) = [ &
     result_type('load', 'N', number, sweep, 'what the sweep changes', &
@@ -497,8 +506,6 @@ module gfb_result_table
   type(result_type), parameter :: ensembles(*) = [ &
     result_type('member', '', word, ensemble, 'name of the case file', &
       'history: name of the case file'), &
-    result_type('reason', '', word, ensemble, 'why there is no answer; empty where there is', &
-      'history: why there is no answer; empty where there is one'), &
     result_type('exit_status', '1', total, ensemble + sample, &
       'that gfb would have had with this case alone', &
       'history: exit status that gfb would have had with this case alone'), &

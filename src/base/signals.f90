@@ -8,7 +8,7 @@ module gfb_signals
   implicit none (type, external)
   private
   public :: catch_signals, limit_time, hold_clock, received_signal, agree_on_signal, &
-            agreed_signal, stop_agreed, stop_status, stop_words
+            agreed_signal, stop_agreed, out_of_time, stop_status, stop_words
 
   !> Signals by their numbers on Linux, and their names.
   integer, parameter :: number(6) = [1, 2, 10, 14, 15, 24]
@@ -92,11 +92,16 @@ contains
     stops = agreed_signal() /= 0
   end function stop_agreed
 
+  !> Whether what stops the run is its time limit; the same on all ranks.
+  logical function out_of_time()
+    out_of_time = agreed_signal() == time_limit
+  end function out_of_time
+
   !> Exit status of a run that was stopped.
   integer function stop_status() result(status)
 
     status = status_of_signals + agreed_signal()
-    if (agreed_signal() == time_limit) status = status_time_limit
+    if (out_of_time()) status = status_time_limit
   end function stop_status
 
   !> Why the run stops.

@@ -4,7 +4,7 @@ module gfb_text
   implicit none (type, external)
   private
   public :: text, exact_text, engineering_text, lower_case, nearest_word, did_you_mean, join
-  public :: plain_text
+  public :: plain_text, one_line
 
   integer, parameter :: longest_word = 60 !! a longer one is a misspelling of nothing
 
@@ -197,6 +197,18 @@ contains
       if (marked(i:i) /= '`') words = words//marked(i:i)
     end do
   end function plain_text
+
+  !> A text without line ends.
+  pure function one_line(words) result(flat)
+    character(len=*), intent(in) :: words
+    character(len=len(words)) :: flat
+    integer :: i
+
+    flat = words
+    do i = 1, len(words)
+      if (words(i:i) == new_line('a')) flat(i:i) = ' '
+    end do
+  end function one_line
 
   !> Where a decimal ends when trailing zeros, and a point left bare by them, are dropped.
   pure integer function last_digit(words) result(last)

@@ -4,8 +4,8 @@ module gfb_run_groups
   use petscsys
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
-  use gfb_errors, only: error_type, fail
-  use gfb_text, only: text
+  use gfb_errors, only: error_type, fail, status_machine
+  use gfb_text, only: text, one_line
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
   use gfb_result_names, only: add_result
@@ -15,12 +15,13 @@ module gfb_run_groups
   use gfb_text_file, only: table_member_type, write_table_file, write_unfinished_text
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
   use gfb_result_file, only: result_file_type
-  use gfb_signals, only: stop_words, agree_on_signal, agreed_signal
+  use gfb_signals, only: stop_words, stop_status, agree_on_signal, agreed_signal
   use gfb_petsc_session, only: wall_time, stop_is_asked
   use gfb_pool, only: pool_type, visit_task, end_log, group_log_path
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
   use gfb_reasons, only: status_unconverged
+  use gfb_outcome, only: add_outcome
   use gfb_provenance, only: version_text
   use gfb_machine_memory, only: start_blas
   use gfb_scene_reading, only: read_scene
@@ -64,7 +65,7 @@ contains
     call pool%next_task(number)
     do while (number <= size(scenes))
       call run_member(scenes(number), context, pool, members(number))
-      status = max(status, members(number)%status)
+      status = max(status, merge(members(number)%status, status_unconverged, members(number)%status <= status_machine))
       call visit_task(mine, members, number)
       call pool%next_task(number)
     end do
@@ -94,7 +95,7 @@ contains
     own = context
     call pool%begin_log(context%folder//'/'//scene%name//'.log', own, error)
     if (.not. allocated(error)) then
-      if (stop_is_asked()) call fail(error, 'not computed, '//stop_words(), status_unconverged)
+      if (stop_is_asked()) call fail(error, 'not computed, '//stop_words(), stop_status())
     end if
     if (.not. allocated(error)) then
       own%start_time = wall_time()
@@ -107,13 +108,13 @@ contains
       call own%log%complaint(error%message)
       member%status = error%status
       member%reason = error%message
-      call pool%report(scene%name//' failed', 1)
+      call pool%report(scene%name//trim(merge(' was stopped', ' failed     ', member%status > status_machine)), 1)
     else if (study%converged) then
       call pool%report(scene%name, 1)
     else
-      member%status = status_unconverged
+      member%status = merge(stop_status(), status_unconverged, study%reason%is_stop())
       member%reason = study%reason%words()
-      call pool%report(scene%name//' has no answer', 1)
+      call pool%report(scene%name//trim(merge(' was stopped  ', ' has no answer', study%reason%is_stop())), 1)
     end if
     if (.not. allocated(answer)) call add_result(answer, 'converged', .false.)
     call add_result(member%row%quantity, 'exit_status', member%status)
@@ -146,6 +147,7 @@ contains
     do i = 1, size(members)
       call add_result(summary, 'member_'//text(i), outcome(members(i)), scenes(i)%file)
     end do
+    call add_outcome(summary, .true.)
     stem = context%folder//'/'//name
     call write_table_file(stem//'.h5', MPI_COMM_SELF, context%origin(), summary, members, &
                           file, error)
@@ -168,20 +170,9 @@ contains
     words = member%name//': done'
     if (member%status == status_unconverged) words = member%name//': no answer'
     if (member%status /= 0 .and. member%status /= status_unconverged) words = member%name//': failed'
+    if (member%status > status_machine) words = member%name//': stopped'
     if (member%reason /= '') words = words//' ('//one_line(member%reason)//')'
   end function outcome
-
-  !> A text without line ends.
-  pure function one_line(words) result(flat)
-    character(len=*), intent(in) :: words
-    character(len=len(words)) :: flat
-    integer :: i
-
-    flat = words
-    do i = 1, len(words)
-      if (words(i:i) == new_line('a')) flat(i:i) = ' '
-    end do
-  end function one_line
 
   !> The members that have no answer, and why.
   subroutine show_failures(members, log)
@@ -456,7 +447,7 @@ contains
     call add_result(origin, 'groups', pool%groups)
     call terminal%take_case(scene%name, error)
     if (.not. allocated(error)) then
-      call write_sample(scene, terminal, study%member, origin, pool%ranks, &
+      call write_sample(scene, terminal, study%member, study%reason, origin, pool%ranks, &
                         cost_type(study%unknowns, nint(total(2)), nint(total(3)), nint(total(4)), &
                                   wall_time() - pool%begun, total(1)), summary, error)
     end if

@@ -12,9 +12,9 @@ module gfb_refinement
                             meshes_foils, film_order_bilinear, film_order_biquadratic, &
                             film_scheme_auto, film_scheme_galerkin, film_scheme_supg
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_reasons, only: reason_inaccurate, reason_stopped
+  use gfb_reasons, only: reason_inaccurate
   use gfb_run_context, only: run_context_type
-  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_signals, only: stop_agreed
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: is_bearing
   use gfb_scene_rules, only: is_symmetric
@@ -426,8 +426,7 @@ contains
     self%converged = self%sequence%met()
     if (self%converged) return
     if (stop_agreed()) then
-      self%reason%code = reason_stopped
-      self%reason%detail = stop_words()
+      call self%reason%stopped()
       return
     end if
     self%reason%code = reason_inaccurate
@@ -560,6 +559,7 @@ contains
     character(len=:), allocatable :: left_out
 
     self%finest%converged = self%converged
+    self%finest%reason = self%reason
     self%finest%more = self%sequence%quantities()
     call self%sequence%coefficient_errors(self%finest%coefficient_errors)
     call self%finest%write(self%mesh, context, summary, error)

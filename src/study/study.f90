@@ -7,9 +7,9 @@ module gfb_study
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_memory_check, only: check_memory
-  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_signals, only: stop_agreed
   use gfb_petsc_session, only: stop_is_asked
-  use gfb_reasons, only: reason_type, reason_stopped
+  use gfb_reasons, only: reason_type
   use gfb_run_context, only: run_context_type
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_restart_file, only: drop_restart
@@ -139,8 +139,7 @@ contains
       if (.not. stop_is_asked()) call study%reach(point, reason, error)
       if (allocated(error)) return
       if (stop_agreed()) then
-        reason%code = reason_stopped
-        reason%detail = stop_words()
+        call reason%stopped()
         call study%save_stopped(point - 1)
       end if
       if (reason%is_given()) return
@@ -170,7 +169,7 @@ contains
       call study%write(scene, context, summary, error)
       call leave_stage()
     end if
-    if (study%reason%code == reason_stopped) call context%log%tell(study%reason%words())
+    if (study%reason%is_stop()) call context%log%tell(study%reason%words())
     if (study%converged .and. .not. allocated(error)) call drop_restart(context%restart)
     call study%discard()
   end subroutine run_study

@@ -12,7 +12,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
 from gfb_run import GFB, MPIEXEC, Bearing, Checks, case_text, read_summary  # noqa: E402
 
-SECONDS = 120
+SECONDS = 900  # nothing here takes that long
 BEARING = Bearing()
 POINTS = 1000
 SWEEP = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups={
@@ -20,8 +20,17 @@ SWEEP = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups=
 SHORT = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups={
     "sweep": {"parameter": "load", "values": tuple(10.0 + i % 30 for i in range(24))}})
 ONE = case_text(BEARING, mesh=(512, 160), number=2.0, load=(-20.0, 0.0))
+# Meshes and load steps that take long beside the way of a signal.
+ACCURATE = case_text(BEARING, mesh=(96, 16), number=2.0, load=(-20.0, 0.0), groups={
+    "accuracy": {"quantity": "minimum_gap", "target": 1.0e-9, "maximum_refinements": 6}})
+STRIP = """&scene analysis='strip' /
+&bump_foil thickness=1.02e-4 youngs_modulus=2.14e11 poissons_ratio=0.29 half_length=1.778e-3 height=5.08e-4 pitch=4.572e-3 bumps=3
+  width=0.0381 fixed_edge='leading' fixed_line='corner' /
+&contact friction_sleeve=0.1 friction_top=0.0 /
+&strip_load kind='crest_pressure' distribution='uniform' pressure=0.2e6 steps_up=500 /
+&mesh arc_elements=8 flat_elements=2 axial_elements=8 /
+"""
 HANG = case_text(BEARING, mesh=(24, 4), number=2.0, load=(-20.0, 0.0))
-PATIENCE = 20  # with the time of the other checks: gfb waits for 10 s
 STATUS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129, signal.SIGXCPU: 152, signal.SIGUSR1: 138}
 
 
@@ -104,6 +113,54 @@ def check_resumed(checks, folder):
     checks.that("all points", rows(folder/"short.h5") == 24)
 
 
+def check_outcomes(checks, folder):
+    """The files of a run without an answer say how it ended, in every analysis that can be stopped, and by which program."""
+    program = subprocess.run([GFB, "--version"], capture_output=True, text=True, check=True).stdout.partition(",")[0]
+    loop = dict(mesh=(48, 8), number=2.0, load=(-20.0, 0.0))
+    cases = {
+        "sweep": (None, "point 3 of"),
+        "time": (case_text(BEARING, **loop, groups={"scene": {"analysis": "transient"}, "rotor": {"mass": 1.0}, "transient": {"turns": 5000.0}}), "time"),
+        "orbit": (case_text(BEARING, **loop, groups={"scene": {"analysis": "periodic"}, "rotor": {"mass": 0.5}, "unbalance": {"unbalance": 1.0e-6},
+                                                     "periodic": {"motion": "forced", "parameter": "speed_rpm", "final_value": 40000.0, "points": 400}}), "orbits"),
+        "members": (case_text(BEARING, **loop, groups={"sample": {"count": 200, "parameters": "bearing%clearance", "factors": 1.001}}), "seed 3"),
+        "meshes": (ACCURATE, "mesh 1"),
+        "strip": (STRIP, "      3 ")}
+    for name, (text, words) in cases.items():
+        if text:
+            (folder/f"{name}.nml").write_text(text, encoding="utf-8")
+        with begin(folder, f"{name}.nml") as process:
+            wait_for(process, words)
+            process.send_signal(signal.SIGINT)
+            log, complaint = process.communicate(timeout=SECONDS)
+        found = read_summary(folder/f"{name}.unconverged.summary")[0] if (folder/f"{name}.unconverged.summary").exists() else {}
+        checks.that(f"{name}: status {process.returncode} {complaint}{log[-300:]}", process.returncode == 130)
+        checks.that(f"{name}: {found.get('outcome')}, {found.get('reason')}", found.get("outcome") == "stopped"
+                    and str(found.get("reason")).startswith("stopped by SIGINT"))
+        checks.that(f"{name}: {found.get('program')}", found.get("program") == program)
+    for name, changes, outcome in (("touches", {"load": (-1.0e6, 0.0)}, "refused"),
+                                   ("bounded", {"groups": {"solver": {"maximum_factorizations": 1}}}, "gave_up")):
+        (folder/f"{name}.nml").write_text(case_text(BEARING, **{**loop, **changes}), encoding="utf-8")
+        done = subprocess.run([GFB, f"{name}.nml"], cwd=folder, capture_output=True, encoding="utf-8", check=False, timeout=SECONDS)
+        found = read_summary(folder/f"{name}.unconverged.summary")[0]
+        checks.that(f"{name}: status {done.returncode}, {found.get('outcome')}: {found.get('reason')}", done.returncode == 2
+                    and found["outcome"] == outcome and str(found["reason"]) in done.stdout.replace("\n", " "))
+    (folder/"other.nml").write_text(SHORT, encoding="utf-8")
+    log = folder/"batch/sweep.log"
+    with begin(folder, "other.nml", "--groups", "1", "--output", "batch", "sweep.nml") as process:
+        while process.poll() is None and not (log.exists() and "point 3 of" in log.read_text(encoding="utf-8")):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=SECONDS)
+    table = read_summary(folder/"batch/ensemble.summary")[0]
+    found = read_summary(folder/"batch/sweep.unconverged.summary")[0]
+    checks.that(f"several cases: status {process.returncode}, {table}", process.returncode == 130 and found["outcome"] == "stopped"
+                and table["member_1"].startswith("sweep: stopped (stopped by SIGINT") and table["member_2"] == "other: stopped (not computed, stopped by SIGINT)")
+    with begin(folder, "sweep.nml", "--time-limit=1") as process:
+        process.communicate(timeout=SECONDS)
+    found = read_summary(folder/"sweep.unconverged.summary")[0]
+    checks.that(f"time limit: {found['outcome']}", found["outcome"] == "out_of_time" and found["program"] == program)
+
+
 def check_first_answer(checks, folder):
     """A run without a sweep ends between two iterations; a second signal ends it at once."""
     (folder/"one.nml").write_text(ONE, encoding="utf-8")
@@ -141,11 +198,20 @@ def check_quiet_end(checks, folder):
 
 def check_time_limit(checks, folder):
     """A limit does what a signal does, with a status of its own."""
-    for limit in ("1", "0:01"):
+    with begin(folder, "sweep.nml", "--time-limit=0:01") as process:  # before its first answer, where the machine is slow
+        log, _ = process.communicate(timeout=SECONDS)
+    checks.that(f"--time-limit=0:01: status {process.returncode}", process.returncode == 124 and "stopped by the time limit" in log)
+    for limit in (1, 4, 16, 64, 256):
         with begin(folder, "sweep.nml", f"--time-limit={limit}") as process:
+            begun = wait_for(process, "point 2 of")
+            os.kill(process.pid, signal.SIGSTOP)  # so that the sweep does not end before its limit
+            time.sleep(limit if begun else 0)
+            os.kill(process.pid, signal.SIGCONT)
             log, _ = process.communicate(timeout=SECONDS)
-        checks.that(f"--time-limit={limit}: status {process.returncode}", process.returncode == 124)
-        checks.that(f"--time-limit={limit}: says so", "stopped by the time limit after point" in log)
+        if begun:
+            break
+    checks.that(f"--time-limit={limit}: status {process.returncode}", process.returncode == 124)
+    checks.that(f"--time-limit={limit}: says so", "stopped by the time limit after point" in log)
     for wrong in ("x", "0", "1:", "-3", ""):
         done = subprocess.run([GFB, "--time-limit", wrong, "sweep.nml"], cwd=folder, capture_output=True,
                               encoding="utf-8", check=False, timeout=SECONDS)
@@ -154,7 +220,8 @@ def check_time_limit(checks, folder):
 
 def begin_hanging(folder):
     """A run whose library does not come back from its first factors, and that has been asked to end; None without a compiler."""
-    (folder/"hang.c").write_text("#include <unistd.h>\nvoid *klu_analyze(void) { for (;;) pause(); }\n", encoding="utf-8")
+    (folder/"hang.c").write_text("#include <fcntl.h>\n#include <unistd.h>\nvoid *klu_analyze(void) {\n  creat(\"hangs\", 0600);\n"
+                                 "  for (;;) pause();\n}\n", encoding="utf-8")
     made = subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", "hang.so", "hang.c"], cwd=folder, check=False)
     if made.returncode != 0:
         return None
@@ -162,8 +229,8 @@ def begin_hanging(folder):
     process = subprocess.Popen([GFB, "hang.nml"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, encoding="utf-8",
                                env={**os.environ, "LD_PRELOAD": str(folder/"hang.so")})
-    wait_for(process, "start: ")
-    time.sleep(0.5)
+    while not (folder/"hangs").exists() and process.poll() is None:
+        time.sleep(0.01)
     process.send_signal(signal.SIGTERM)
     return process
 
@@ -171,7 +238,7 @@ def begin_hanging(folder):
 def check_hanging(checks, process, folder):
     """One signal is enough where a library hangs; a clock waits for it meanwhile, beside the other checks."""
     try:
-        _, complaint = process.communicate(timeout=PATIENCE)
+        _, complaint = process.communicate(timeout=SECONDS)
     except subprocess.TimeoutExpired:
         process.kill()
         process.communicate()
@@ -186,7 +253,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         hanging = begin_hanging(folder)
-        for check in (check_sweep, check_resumed, check_first_answer, check_quiet_end, check_time_limit):
+        for check in (check_sweep, check_resumed, check_outcomes, check_first_answer, check_quiet_end, check_time_limit):
             check(checks, folder)
         if hanging:
             check_hanging(checks, hanging, folder)

@@ -28,7 +28,8 @@ module gfb_bearing_solution
   use gfb_key_path, only: follow_keys
   use gfb_last_answer, only: last_answer_type
   use gfb_limit_search, only: find_limit, leave_limit
-  use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft, reason_no_limit, reason_stopped
+  use gfb_ending, only: ending_stopped
+  use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft, reason_no_limit
   use gfb_run_context, only: run_context_type
   implicit none (type)
   private
@@ -258,7 +259,9 @@ contains
     if (.not. gave_up) return
     call self%context%log%line('the search from nothing gave up '//self%bound%words()//'; a sweep from a lighter load, a lower '// &
                                'speed or less tilt may lead there')
-    if (.not. report%has_cause()) call report%ending%add_words('', ', '//self%bound%words())
+    if (report%has_cause()) return
+    report%ending%kind = ending_stopped
+    call report%ending%add_words('', ', '//self%bound%words())
   end subroutine end_search
 
   !> From the present answer to its limit, where the scene asks for one.
@@ -347,9 +350,10 @@ contains
     if (self%scene%capacity%question > 0) reason%code = reason_no_limit
     if (fixed) reason%code = reason_fixed_shaft
     reason%detail = report%reason()
+    reason%shown = report%has_cause()
+    reason%gave_up = report%ending%kind == ending_stopped
     if (stop_agreed()) then
-      reason%code = reason_stopped
-      reason%detail = stop_words()
+      call reason%stopped()
       return
     end if
     associate (point => report%reached, force => self%bearing%reaction(), log => self%context%log)

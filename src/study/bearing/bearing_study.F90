@@ -159,6 +159,7 @@ contains
 
     memory = sum_over_ranks([peak_memory()])
     result%converged = self%converged
+    result%reason = self%reason
     result%plan = self%plan
     result%cost = cost_type(self%unknowns, self%iterations, self%factorizations, self%factorizations_finest, &
                             wall_time() - context%start_time, memory(1))

@@ -26,6 +26,8 @@ module gfb_bearing_writing
   use gfb_answer_notes, only: show_contact_notes, show_film_notes
   use gfb_tilt_response, only: summary_quantities, show_tilt_response
   use gfb_result_set, only: result_grid_type, write_result_set
+  use gfb_reasons, only: reason_type
+  use gfb_outcome, only: add_outcome
   use gfb_film_grid, only: add_film_grid
   use gfb_foil_grid, only: add_foil_grids
   use gfb_provenance, only: blas_in_use
@@ -77,6 +79,7 @@ module gfb_bearing_writing
   !> What is written beside the bearing's state and record.
   type, public :: bearing_result_type
     logical :: converged = .false.                   !! the state is the answer
+    type(reason_type) :: reason                      !! why it is not
     type(bearing_plan_type) :: plan                  !! of the bearing
     type(cost_type) :: cost
     integer :: ranks = 1                             !! that computed it
@@ -270,6 +273,7 @@ contains
       allocate (grids(0))
       call add_film_grid(bearing, scene%output, grids)
       call add_foil_grids(bearing, grids)
+      call add_outcome(summary, converged, result%reason)
       call write_result_set(scene, context%folder, converged, result%origin, summary, record%history, result%contacts, &
                             grids, context%csv, log, error, columns, record%series)
       if (.not. allocated(error)) call write_coefficients(record, scene, context, error)

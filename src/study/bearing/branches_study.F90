@@ -29,6 +29,7 @@ module gfb_branches_study
   use gfb_start_problem, only: start_problem_type
   use gfb_start_list, only: soft_starts_of, start_name, try_start
   use gfb_bearing_plan, only: plan_bearing
+  use gfb_outcome, only: add_outcome
   use gfb_reasons, only: reason_no_equilibrium
   use gfb_study, only: study_type
   implicit none (type, external)
@@ -84,6 +85,7 @@ contains
                       wall_time() - context%start_time, peak_memory())))
     allocate (arrays(0))
     call add_foil_contacts(bearing, record%contacts, size(record%history), arrays)
+    call add_outcome(summary, .true.)
     call write_result_set(scene, context%folder, .true., context%origin(), summary, record%history, arrays, grids, context%csv, &
                           context%log, error)
   end subroutine write_branches

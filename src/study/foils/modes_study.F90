@@ -28,6 +28,7 @@ module gfb_modes_study
   use gfb_foil_builder, only: foil_plan_type
   use gfb_part_builder, only: build_part
   use gfb_foil_plan, only: plan_foil
+  use gfb_outcome, only: add_outcome
   use gfb_reasons, only: reason_few_modes
   use gfb_study, only: study_type
   implicit none (type)
@@ -91,6 +92,7 @@ contains
       history(1)%quantity = list
       call add_quantity(summary, list)
       call add_quantity(summary, self%reduced)
+      call add_outcome(summary, self%converged, self%reason)
       call write_result_set(scene, context%folder, self%converged, context%origin(), summary, history, &
                             self%arrays, [grid], context%csv, log, error)
     end associate

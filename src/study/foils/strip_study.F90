@@ -25,6 +25,7 @@ module gfb_strip_study
                                visit_run, strip_companions, show_companions, add_companions
   use gfb_restart_file, only: save_restart, read_restart, end_reading
   use gfb_reasons, only: reason_type, reason_load_step
+  use gfb_outcome, only: add_outcome
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type, add_quantity
@@ -95,6 +96,7 @@ contains
       lifted = what_lifts(scene)
       if (lifted /= '' .and. run%steps == 0) then
         call self%explain(1, lifted, reason)
+        reason%shown = .true.
       else
         call run_points(self, run%steps + 1, last, reason, error)
       end if
@@ -427,6 +429,7 @@ contains
       allocate (arrays(0))
       call add_contact_arrays(strip%contacts, strip%foil, run%contacts, run%steps, arrays)
       call add_companions(run%companions, arrays)
+      call add_outcome(summary, run%converged, self%reason)
       call write_result_set(scene, context%folder, run%converged, context%origin(), summary, run%history, &
                             arrays, [grid], context%csv, context%log, error)
     end associate

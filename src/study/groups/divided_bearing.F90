@@ -73,6 +73,8 @@ contains
     call archive%visit('reason_code', block%reason%code)
     call archive%visit('reason_at', block%reason%at)
     call archive%visit('reason_of', block%reason%of)
+    call archive%visit('reason_shown', block%reason%shown)
+    call archive%visit('reason_gave_up', block%reason%gave_up)
     call archive%visit('reason_detail', block%reason%detail)
     call archive%part('row')
     call visit_rows(archive, block%row)
@@ -542,6 +544,7 @@ contains
     call terminal%take_case(scene%name, error)
     if (.not. allocated(error)) then
       result%converged = all(blocks%status == 0)
+      result%reason = reason_of(blocks)
       result%plan = study%plan
       result%cost = cost_type(study%unknowns, sum(blocks%count(1)), sum(blocks%count(2)), sum(blocks%count(3)), &
                               wall_time() - pool%begun, memory)
@@ -569,6 +572,18 @@ contains
     status = max(status, error%status)
     call terminal%log%complaint(error%message)
   end subroutine write_all
+
+  !> Why not all blocks have their answers: the first one that has none says it, or one that was stopped.
+  pure function reason_of(blocks) result(reason)
+    type(bearing_block_type), intent(in) :: blocks(:)
+    type(reason_type) :: reason
+    integer :: i
+
+    do i = size(blocks), 1, -1
+      if (blocks(i)%status /= 0 .and. .not. reason%is_stop()) reason = blocks(i)%reason
+      if (blocks(i)%reason%is_stop()) reason = blocks(i)%reason
+    end do
+  end function reason_of
 
   !> Which blocks end early, and why; and where those of a sweep do not fit together.
   subroutine show_failures(scene, blocks, log)

@@ -17,11 +17,11 @@ module gfb_periodic
                           whirl_type, find_onset, fixed_parameter
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
-  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_signals, only: stop_agreed
   use gfb_newton, only: newton_type
   use gfb_time_march, only: begin_rubbing
   use gfb_case_file, only: case_array_type, add_array
-  use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
+  use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached
   use gfb_run_context, only: run_context_type
   implicit none (type)
   private
@@ -276,8 +276,7 @@ contains
     end if
     if (found .and. self%map%parameter > 0) call self%follow(scene, context)
     if (stop_agreed()) then
-      reason%code = reason_stopped
-      reason%detail = stop_words()//' after '//text(self%map%periods)//' periods'
+      call reason%stopped(' after '//text(self%map%periods)//' periods')
     else if (.not. found) then
       reason%code = reason_no_answer
       reason%detail = 'no orbit: '//self%map%problem

@@ -12,7 +12,7 @@ module gfb_sample
   use gfb_bump_heights, only: even_deviations
   use gfb_bearing_summary, only: cost_type, cost_quantities
   use gfb_case_file, only: case_array_type, history_row_type, add_array, history_values
-  use gfb_errors, only: error_type
+  use gfb_errors, only: error_type, status_machine
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity, quantity_word
   use gfb_result_names, only: asked_names, result_unit, result_meaning, add_result
   use gfb_result_set, only: result_grid_type, write_result_set
@@ -27,9 +27,10 @@ module gfb_sample
   use gfb_text, only: text
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: rank_count, stop_is_asked, sum_over_ranks, wall_time
-  use gfb_reasons, only: reason_failed, reason_stopped, status_unconverged
+  use gfb_outcome, only: add_outcome
+  use gfb_reasons, only: reason_type, reason_failed, reason_members, status_unconverged
   use gfb_study_rules, only: sample_member
-  use gfb_signals, only: stop_words
+  use gfb_signals, only: stop_status, stop_words
   use gfb_study, only: study_type
   implicit none (type, external)
   private
@@ -120,10 +121,11 @@ contains
   !> table and not in the statistics.
   !>
   !> Fails when a file cannot be written.
-  subroutine write_sample(scene, context, members, origin, ranks, cost, summary, error)
+  subroutine write_sample(scene, context, members, reason, origin, ranks, cost, summary, error)
     type(scene_type), intent(in) :: scene !! what was asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(table_member_type), intent(in) :: members(:) !! by their seeds
+    type(reason_type), intent(in) :: reason !! why not all have an answer
     type(quantity_type), intent(in) :: origin(:) !! of the files
     integer, intent(in) :: ranks !! that computed all members
     type(cost_type), intent(in) :: cost !! of all members
@@ -153,6 +155,7 @@ contains
                         context%log, summary, arrays)
     call add_quantity(summary, cost_quantities(cost))
     call show_members(members, ranks, context%log)
+    call add_outcome(summary, converged, reason)
     call write_result_set(scene, context%folder, converged, origin, summary, rows, arrays, &
                           no_grid, .true., context%log, error)
   end subroutine write_sample
@@ -318,7 +321,7 @@ contains
       member%name = 'seed '//text(there%bump_foil%random%seed)
       member%reason = ''
       if (stop_is_asked()) then
-        member%status = status_unconverged
+        member%status = stop_status()
         member%reason = 'not computed, '//stop_words()
       else
         allocate (study, mold=self%pattern)
@@ -329,7 +332,7 @@ contains
           member%status = error%status
           member%reason = error%message
         else if (.not. study%converged) then
-          member%status = status_unconverged
+          member%status = merge(stop_status(), status_unconverged, study%reason%is_stop())
           member%reason = study%reason%words()
         end if
         self%unknowns = max(self%unknowns, study%unknowns)
@@ -427,12 +430,11 @@ contains
 
     self%converged = all(self%member%status == 0)
     if (self%converged) return
-    self%reason%code = reason_failed
+    self%reason%code = reason_members
+    if (any(self%member%status == status_machine)) self%reason%code = reason_failed
     self%reason%detail = text(count(self%member%status /= 0))//' of '//text(size(self%member))// &
                          ' members have no answer'
-    if (.not. stop_is_asked()) return
-    self%reason%code = reason_stopped
-    self%reason%detail = stop_words()
+    if (stop_is_asked()) call self%reason%stopped()
   end subroutine judge
 
   !> Writes the members and their statistics.
@@ -447,7 +449,7 @@ contains
     real(wp) :: memory(1)
 
     memory = sum_over_ranks([peak_memory()])
-    call write_sample(scene, context, self%member, context%origin(), rank_count(), &
+    call write_sample(scene, context, self%member, self%reason, context%origin(), rank_count(), &
                       cost_type(self%unknowns, self%iterations, self%factorizations, &
                                 self%factorizations_finest, wall_time() - context%start_time, &
                                 memory(1)), summary, error)

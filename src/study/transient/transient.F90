@@ -26,10 +26,10 @@ module gfb_transient
   use gfb_errors, only: error_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
-  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_signals, only: stop_agreed
   use gfb_text, only: text
   use gfb_march_state, only: largest_way
-  use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached, reason_stopped
+  use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached
   use gfb_run_context, only: run_context_type
   use gfb_bearing_record, only: bearing_record_type
   use gfb_bearing_restart, only: visit_answer_and_record
@@ -429,8 +429,7 @@ contains
         end if
         if (self%ending /= '') exit
         if (stop_agreed()) then
-          reason%code = reason_stopped
-          reason%detail = stop_words()//' at '//place_in_time(march)
+          call reason%stopped(' at '//place_in_time(march))
           if (restart%may_be_written()) then
             call self%save(scene, restart, log, bearing, newton, record)
             call restart%tell(log, reason%detail)
@@ -446,7 +445,7 @@ contains
       call log%is_within('')
       if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(march))
       call self%judge_end(scene, reason)
-      if (reason%is_given() .and. reason%code /= reason_stopped) call log%tell(reason%words())
+      if (reason%is_given() .and. .not. reason%is_stop()) call log%tell(reason%words())
       call log%line(text(march%steps)//' steps, '//text(march%rejections)//' of them taken again shorter; smallest film '// &
                     text(self%history%smallest_gap*1.0e6_wp, 4)//' um')
       if (self%history%lacks_spectrum()) then
