@@ -27,6 +27,8 @@ RIGID = {"scene": {"analysis": "equilibrium"},
 # above 8; no derivative where it is above 7.
 STUB = """#!{python}
 import pathlib, sys
+if "--version" in sys.argv:
+    sys.exit(print("gfb stub (x), of a test"))
 sys.path.insert(0, {tools!r})
 from gfb.case import Case
 path = pathlib.Path(sys.argv[-1])
@@ -35,15 +37,28 @@ with open({calls!r}, "a") as calls:
 case, targets = Case.read(path), {targets!r}
 values = case["list%values"]
 stem = path.with_suffix("")
+
+def keep(ending, *outcome):
+    # What tells whose answer of which case it is.
+    if {kept!r}:
+        import h5py
+        with h5py.File(f"{{stem}}{{ending}}.h5", "w") as file:
+            for name, word in zip(("scene/case_file", "provenance/program_version", "provenance/commit", "summary/outcome"),
+                                  (path.read_text(), "stub", "x", *outcome)):
+                file[name] = word
+            file.require_group("summary")
+
 if values[0] > 8.0:
     sys.exit("case.nml:1: &list: values must be below 8") if "--check" not in sys.argv else sys.exit(1)
 if values[0] < 2.0:
     pathlib.Path(f"{{stem}}.unconverged.summary").write_text("converged = false\\n")
+    keep(".unconverged", "refused")
     sys.exit(2)
 lines = [f"power_loss = {{sum((v - t)**2 for v, t in zip(values, targets))!r}} [W]"]
 if values[0] <= 7.0:
     lines += [f"d_power_loss_d_list_values_{{i + 1}} = {{2.0*(v - t)!r}} [W]" for i, (v, t) in enumerate(zip(values, targets))]
 pathlib.Path(f"{{stem}}.summary").write_text("".join(line + "\\n" for line in lines))
+keep("")
 pathlib.Path(f"{{stem}}.used.nml").write_text("&list\\n  values = 1.0 ! [m] some\\n/\\n&mesh\\n/\\n")
 """
 
@@ -123,10 +138,10 @@ class Optimize(unittest.TestCase):
         """A search that says nothing aloud."""
         return gfb.optimize(case, folder=self.folder, tell=self.said.append, **words)
 
-    def stub(self, targets):
-        """The program STUB, and where its calls are written."""
+    def stub(self, targets, kept=False):
+        """The program STUB, and where its calls are written; kept: its answers are found again."""
         path, self.calls = self.folder/"stub", self.folder/"calls"
-        path.write_text(STUB.format(python=sys.executable, tools=str(pathlib.Path(gfb.__file__).parents[1]), calls=str(self.calls), targets=targets),
+        path.write_text(STUB.format(python=sys.executable, tools=str(pathlib.Path(gfb.__file__).parents[1]), calls=str(self.calls), targets=targets, kept=kept),
                         encoding="utf-8")
         path.chmod(0o755)
         return path
@@ -240,7 +255,7 @@ class Optimize(unittest.TestCase):
 
     @unittest.skipUnless(HAS_SCIPY, NO_SCIPY)
     def test_called_again_nothing_runs_again(self):
-        program = self.stub((3.0, 5.0))
+        program = self.stub((3.0, 5.0), kept=True)
         case, words = gfb.Case({"list": {"values": (6.0, 6.0)}}), {"minimize": "power_loss", "vary": {"list%values(:)": (1.0, 7.0)}}
         few = self.optimize(case, **words, most_runs=3, gfb=program)
         self.assertEqual((len(few.runs), few.computed, few.ending), (3, 3, "after 3 runs"))

@@ -7,7 +7,9 @@ import sys
 import tempfile
 import unittest
 import unittest.mock
+import warnings
 
+import h5py
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
@@ -184,16 +186,64 @@ class PythonTest(unittest.TestCase):
     def test_study_starts_the_program_twice(self):
         """One call checks all members, one computes those that are missing; members without an answer are told."""
         counted, calls = self.folder/"counted", self.folder/"calls"
-        counted.write_text(f'#!/bin/sh\necho "$#" >> "{calls}"\nexec "{gfb.case.program()}" "$@"\n', encoding="utf-8")
+        counted.write_text(f'#!/bin/sh\n[ "$1" = --version ] || echo "$#" >> "{calls}"\nexec "{gfb.case.program()}" "$@"\n', encoding="utf-8")
         counted.chmod(0o755)
         case, values = gfb.Case(SMALL), {"bearing%clearance": [2.0e-5, 9.0e-4], "operation%speed_rpm": [2.0e4, 2.2e4]}
         first = gfb.study(case, values, self.folder, gfb=counted)
         self.assertEqual(len(calls.read_text(encoding="utf-8").split()), 2)
         self.assertEqual(first.status.values.tolist(), [[0, 0], [2, 2]])
-        (self.folder/"study_0002.summary").unlink()
+        (self.folder/"study_0002.h5").unlink()
         self.assertTrue(gfb.study(case, values, self.folder, gfb=counted).minimum_gap.equals(first.minimum_gap))
         self.assertEqual(len(calls.read_text(encoding="utf-8").split()), 4)
         self.assertEqual([path.name for path in self.folder.glob("*.batch*")], [])
+
+    def test_a_study_that_was_stopped_goes_on(self):
+        """Its first call is sent SIGINT at the second point of its first member: neither that member nor the next one has no answer."""
+        stopped = self.folder/"stopped"
+        stopped.write_text(f'''#!/usr/bin/env bash
+set -m # or the shell has its children ignore SIGINT
+case "$*" in *--check*|*--version*) exec "{gfb.case.program()}" "$@";; esac
+[ -e "{self.folder}/once" ] && exec "{gfb.case.program()}" "$@"
+touch "{self.folder}/once"
+"{gfb.case.program()}" "$@" &
+until grep -qs " point 2 of" "{self.folder}/study_0001.log"; do kill -0 $! || break; sleep 0.01; done
+kill -INT $!
+wait $!
+''', encoding="utf-8")
+        stopped.chmod(0o755)
+        case, values = gfb.Case(SMALL), {"bearing%clearance": [2.0e-5, 2.5e-5]}
+        case["sweep%parameter"], case["sweep%values"] = "load", [10.0 + i % 30 for i in range(150)]
+        with self.assertRaisesRegex(gfb.RunError, "another call computes the rest") as raised:
+            gfb.study(case, values, self.folder, gfb=stopped)
+        self.assertEqual(raised.exception.status, 130)
+        words = gfb.results.read_summary(self.folder/"study_0001.unconverged.summary")[0]
+        self.assertEqual((words["outcome"], words["reason"].split(" after")[0]), ("stopped", "stopped by SIGINT"))
+        self.assertIn(f"program = {words['program']}\n", (self.folder/"study_0001.unconverged.summary").read_text(encoding="utf-8"))
+        with h5py.File(self.folder/"study_0001.unconverged.h5") as file:
+            self.assertEqual(file["summary/outcome"][()].decode(), "stopped")
+        table = gfb.study(case, values, self.folder, gfb=stopped)
+        self.assertEqual(table.status.values.tolist(), [0, 0])
+        self.assertTrue(numpy.isfinite(table.minimum_gap).all())
+
+    def test_answers_of_another_program(self):
+        """They are not taken for this one's: computed again, and said; nor is what an interrupted run of another case has left."""
+        newer = self.folder/"newer"
+        newer.write_text(f'#!/bin/sh\n[ "$1" = --version ] && exec echo "gfb 99.0 (abc), of a test"\nexec "{gfb.case.program()}" "$@"\n', encoding="utf-8")
+        newer.chmod(0o755)
+        case, values = gfb.Case(SMALL), {"bearing%clearance": [2.0e-5, 2.5e-5]}
+        first = gfb.study(case, values, self.folder)
+        with self.assertWarnsRegex(UserWarning, r"2 results of gfb \S+ \(.*\) are computed again by gfb 99.0 \(abc\)"):
+            gfb.study(case, values, self.folder, gfb=newer)
+        rigid = gfb.compare_models(case, ("rigid",), self.folder)
+        with self.assertWarnsRegex(UserWarning, "models_rigid: there is a result of gfb .* computed again by gfb 99.0"):
+            gfb.compare_models(case, ("rigid",), self.folder, gfb=newer)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            gfb.compare_models(case, ("rigid",), self.folder)
+            self.assertTrue(gfb.study(case, values, self.folder).minimum_gap.equals(first.minimum_gap))
+        other = gfb.Case(SMALL | {"operation": {"speed_rpm": 20000.0, "load": (-30.0, 0.0)}})
+        other.write(self.folder/"models_rigid.nml")  # a run of this case was killed before its end
+        self.assertNotEqual(float(gfb.compare_models(other, ("rigid",), self.folder).data.minimum_gap[0]), float(rigid.data.minimum_gap[0]))
 
     def test_what_is_no_result(self):
         (self.folder/"bad.h5").write_bytes(b"no HDF5")

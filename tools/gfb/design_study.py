@@ -4,7 +4,7 @@ balance grade, misalignment, tolerances.
   tools/design CASE.nml          a page, results/CASE.design/CASE.html, and the same as a table
 
 Each part is a case file beside its results, which tools/run and tools/report take, too. Called again, it computes what is not there
-yet. A part that does not apply is left out, in words. Exit status: 0 the page is written, 1 the case is wrong.
+yet, was stopped, or is another program's. A part that does not apply is left out, in words. Exit status: 0 the page is written, 1 the case is wrong.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from gfb.case import Case, CaseError
-from gfb.door import DONE, ENDINGS, find_member, run_member
+from gfb.door import DONE, ENDINGS, RunError, find_member, run_member
 from gfb.report.glance import carried_by, glance
 from gfb.report.main import read_run, write_page
 from gfb.results import read_history, read_summary
@@ -101,7 +101,7 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
     def compute(part: Part) -> None:
         nonlocal done
         stem = folder/f"{name}_{part.name}"
-        status, _, _ = find_member(part.case, stem) or run_member(part.case, stem, gfb)
+        status, _, _ = find_member(part.case, stem, gfb) or run_member(part.case, stem, gfb, tell)
         part.stem = stem if status == DONE else folder/(stem.name + ENDINGS[status].removesuffix(".summary"))
         with lock:
             done += 1
@@ -212,9 +212,8 @@ def rows_of(parts: Sequence[Part], gfb: str | os.PathLike[str] | None) -> list[t
             continue
         run = read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")}
         if not run["converged"]:
-            words = [str(run["summary"][name]["value"]) for name in ("not_reached", "ending") if name in run["summary"]]
-            rows.append((part.question, "no answer", ("not reached: " + ", ".join(words) if words else "lost on the way")
-                         + "; the last state reached is below", True))
+            why = ": ".join(str(run["summary"][name]["value"]) for name in ("outcome", "reason") if name in run["summary"])
+            rows.append((part.question, "no answer", f"{why}; the last state reached is below", True))
         elif part.name == "point":
             rows += glance(run["summary"], run["used"])
         else:
@@ -319,6 +318,9 @@ def main() -> int:
     except CaseError as error:
         print(error, file=sys.stderr)
         return 1
+    except RunError as error:
+        print(error, file=sys.stderr)
+        return error.status if error.status > 0 else 3
     print(found.table())
     print(f"written: {found.page(options.gfb)}")
     return 0

@@ -87,7 +87,7 @@ def file_of(bearing: Any, number: int, folder: pathlib.Path, gfb: str | os.PathL
     from gfb.door import DONE, find_member, run_member  # these need xarray, files do without
     folder.mkdir(parents=True, exist_ok=True)
     stem = folder/f"bearing_{number}"
-    if (find_member(bearing, stem) or run_member(bearing, stem, gfb))[0] != DONE:
+    if (find_member(bearing, stem, gfb) or run_member(bearing, stem, gfb))[0] != DONE:
         raise ValueError(f"{stem}.nml: there is no answer, so neither stiffness nor damping")
     return pathlib.Path(f"{stem}.h5")
 

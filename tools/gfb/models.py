@@ -16,7 +16,7 @@ from typing import Any
 import xarray
 
 from gfb.case import Case, CaseError
-from gfb.door import DONE, NOT_CONVERGED, WRONG_INPUT, RunError, find_member, run_member, table
+from gfb.door import DONE, NOT_CONVERGED, WRONG_INPUT, RunError, find_member, reason_of, run_member, table
 from gfb.reading import read
 from gfb.tables import markdown_table, readable_unit
 from gfb.tool import draw_into_files, parser_of, stop
@@ -109,7 +109,7 @@ def compare_models(case: Case, models: Sequence[str] | None = None, folder: str 
     """Runs a case with every model of its foil; by default rigid, springs, beams (of thrust bearings plates) and shells.
 
     Of a sweep the table has the last point. What a model has no use for is left out, and said. A model that the case cannot have has status 1 and a reason, one without an
-    answer status 2; numbers are NaN there. Called again, it computes what is not there yet."""
+    answer status 2; numbers are NaN there. Called again, it computes what is not there yet, was stopped, or is another program's."""
     if models is None:
         models = OF_RUNNERS if case.is_thrust() else OF_JOURNALS
     folder = pathlib.Path(folder)
@@ -126,13 +126,13 @@ def compare_models(case: Case, models: Sequence[str] | None = None, folder: str 
     def answer(model: str) -> tuple[int, dict[str, Any], dict[str, str]]:
         if model in reasons:
             return WRONG_INPUT, {}, {}
-        return find_member(cases[model], stems[model]) or run_member(cases[model], stems[model], gfb)
+        return find_member(cases[model], stems[model], gfb) or run_member(cases[model], stems[model], gfb)
 
     with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
         found = list(pool.map(answer, models))
     for model, (status, _, _) in zip(models, found):
         if status == NOT_CONVERGED:
-            reasons[model] = "no answer; the last state reached is in " + f"{stems[model].name}.unconverged.summary"
+            reasons[model] = f"no answer, {reason_of(stems[model])}; the last state reached is in {stems[model].name}.unconverged.summary"
     files = {model: folder/f"{name}_{model}.film.vtkhdf" for model, (status, _, _) in zip(models, found) if status == DONE}
     return Models(table({"model": list(models)}, found), left_out, reasons, {model: file for model, file in files.items() if file.exists()})
 
@@ -175,7 +175,7 @@ def main() -> int:
     except CaseError as error:
         return stop(f"{options.case}: {error}")
     except RunError as error:
-        return stop(str(error), 3)
+        return stop(str(error), error.status if error.status > 0 else 3)
     print(models.table())
     print(f"drawn: {models.plot(folder/f'{name}.models.png')}")
     return 0

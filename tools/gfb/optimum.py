@@ -323,11 +323,11 @@ class Runner:
     def member(self, case: Case) -> tuple[int, dict[str, Any], dict[str, str], pathlib.Path, str]:
         """Status, results, units and files of a case, which is named by its text, and why it has no answer."""
         stem = self.folder/f"{self.name}_{hashlib.sha256(str(case).encode()).hexdigest()[:12]}"
-        found = find_member(case, stem)
+        found = find_member(case, stem, self.gfb)
         if found is None:
             self.computed += 1
             try:
-                found = run_member(case, stem, self.gfb)
+                found = run_member(case, stem, self.gfb, self.tell)
             except CaseError as error:
                 return WRONG_INPUT, {}, {}, stem, str(error)
         return *found, stem, f"no answer, {stem.name}{ENDINGS[NOT_CONVERGED]}" if found[0] == NOT_CONVERGED else ""

@@ -40,7 +40,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", metavar="NAME[,NAME...]", type=page_names, default=list(PAGES),
                         help=f"only these of the pages: {', '.join(PAGES)}")
-    parser.add_argument("--reuse", action="store_true", help="take runs of the same case text from --runs")
+    parser.add_argument("--reuse", action="store_true", help="take runs of the same case text and program from --runs")
     parser.add_argument("--jobs", metavar="N", type=int, default=1,
                         help="runs at a time, at most; default: %(default)s")
     parser.add_argument("--quick", action="store_true", help="without the tables of what the paper leaves open, and without finer meshes")

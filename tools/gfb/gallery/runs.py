@@ -94,7 +94,7 @@ class Runs:
     """Runs cases, or takes what an earlier call left."""
 
     def __init__(self, gfb, folder, reuse=False, jobs=1, quick=False):
-        """folder: where each run has a folder of its own; reuse: take runs of the same case text from there;
+        """folder: where each run has a folder of its own; reuse: take this program's runs of the same case text from there;
         jobs: runs at a time; quick: without variants and finer meshes.
         """
         self.gfb, self.folder, self.reuse, self.jobs = gfb, pathlib.Path(folder), reuse, jobs
@@ -106,6 +106,11 @@ class Runs:
         """{(group, key)} the program knows."""
         said = call([self.gfb, "--keys"]).log
         return set(re.findall(r"^\| `&(\w+)` \| `(\w+)` \|", said, re.MULTILINE))
+
+    @functools.cached_property
+    def program(self):
+        """What the program calls itself, with version and commit."""
+        return call([self.gfb, "--version"]).log.partition(",")[0].strip()
 
     @functools.cached_property
     def options(self):
@@ -136,7 +141,7 @@ class Runs:
             path.write_text(text, encoding="utf-8")
             print(f"  runs {name}", flush=True)
             done = call(command_of(self.gfb, path, folder, options=("--quiet", *options)))
-            kept = {"status": done.status, "said": done.log + done.complaint}
+            kept = {"status": done.status, "said": done.log + done.complaint, "program": self.program}
             if done.status not in (DONE, NOT_CONVERGED):
                 stop(f"{path}: gfb ended with status {done.status}:\n{done.complaint}", 3)
             note.write_text(json.dumps(kept), encoding="utf-8")
@@ -146,7 +151,8 @@ class Runs:
         """What an earlier call noted of the same case, if it may be taken."""
         if not self.reuse or not note.exists() or path.read_text(encoding="utf-8") != text:
             return None
-        return read_json(note)
+        kept = read_json(note)
+        return kept if kept.get("program") == self.program else None
 
     def run_all(self, cases, may_stop=False):
         """Results of several (case, changes), some at a time."""

@@ -120,7 +120,7 @@ def show_answer(run, number):
         ui.label(run["name"]).classes("brand")
         ui.label(str(run["title"]))
         if not run["converged"]:
-            ui.label("No answer was found: the numbers are those of the last state reached.").classes("mistake")
+            ui.label(run["ended"]).classes("mistake")
         elif run["rows"]:
             ui.label("Of the last point or load step.")
         with ui.element("div").classes("glance"):
