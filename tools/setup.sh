@@ -53,18 +53,26 @@ unlock_build() {
 
 # need_packages PACKAGE...: installs what is missing of them.
 need_packages() {
-  local present package missing=()
+  local missing
   if [[ ${GFB_INSTALL:-yes} == no ]] || ! has_apt; then
     return
   fi
-  # shellcheck disable=SC2016 # the ${} are dpkg-query's
-  present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
-  for package in "$@"; do
-    [[ $'\n'$present$'\n' == *$'\n'"installed $package"$'\n'* ]] || missing+=("$package")
-  done
+  read -ra missing <<<"$(missing_packages "$@")"
   if ((${#missing[@]} > 0)); then
     install_packages "${missing[@]}"
   fi
+}
+
+# missing_packages PACKAGE...: those that are not installed, each once.
+missing_packages() {
+  local present package missing=' '
+  # shellcheck disable=SC2016 # the ${} are dpkg-query's
+  present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
+  for package in "$@"; do
+    [[ $'\n'$present$'\n' == *$'\n'"installed $package"$'\n'* || $missing == *" $package "* ]] || missing+="$package "
+  done
+  missing=${missing# }
+  printf '%s' "${missing% }"
 }
 
 has_apt() {
@@ -80,8 +88,8 @@ install_packages() {
     elif command -v sudo >/dev/null && [[ -t 0 && -t 2 ]]; then
       as_root=(sudo)
     else
-      say 'missing packages; please let an administrator run'
-      say "  apt-get update && apt-get install --yes --no-install-recommends $*"
+      say 'missing packages; please let an administrator run, once for tools/run and tools/test'
+      say "  apt-get update && apt-get install --yes --no-install-recommends $(missing_packages "$@" "${test_packages[@]}")"
       stop 'or set GFB_INSTALL=no where libraries of your own take their place (PKG_CONFIG_PATH)'
     fi
   fi
@@ -103,9 +111,17 @@ install_packages() {
   packages_changed=yes
 }
 
-# Python packages that Debian lacks, in a virtual environment that sees Debian's own.
+# Python packages that Debian lacks, in a virtual environment that sees Debian's own; fails, in words, where pip does.
 need_venv() {
+  [[ ${GFB_PIP_FAILED:-no} == no ]] || return 1 # tools/test has tried, and said why
   fill_venv "$venv" "$requirements" "$(grep -o '^[a-z-]*==[^ ]*' -- "$requirements" | tr '\n' ' ')"
+}
+
+# The Python of tests and checks: that of the virtual environment, or else the system's.
+python_of_tests() {
+  local python=$venv/bin/python
+  [[ -x $python ]] || python=$(command -v /usr/bin/python3 || command -v python3) || stop 'python3 is missing'
+  printf '%s' "$python"
 }
 
 # Those of tools/studio, in one of their own: nobody else needs them.
@@ -113,7 +129,8 @@ need_studio_venv() {
   if [[ ${GFB_INSTALL:-yes} == no ]] && ! is_filled "$studio_venv" "$studio_requirements"; then
     stop 'tools/studio needs the library NiceGUI in build/studio_venv: without GFB_INSTALL=no, tools/studio --install puts it there'
   fi
-  fill_venv "$studio_venv" "$studio_requirements" "$(grep -o '^nicegui==[^ ]*' -- "$studio_requirements") and what it needs (130 MB, once)"
+  fill_venv "$studio_venv" "$studio_requirements" "$(grep -o '^nicegui==[^ ]*' -- "$studio_requirements") and what it needs (130 MB, once)" \
+    || exit 3
 }
 
 # is_filled FOLDER REQUIREMENTS
@@ -124,7 +141,7 @@ is_filled() {
   [[ -x $1/bin/python && -f $1/installed.txt && $(<"$1/installed.txt") == "$wanted" ]]
 }
 
-# fill_venv FOLDER REQUIREMENTS NAMES: makes it where it is not as it should be.
+# fill_venv FOLDER REQUIREMENTS NAMES: makes it where it is not as it should be; 1 where pip fails.
 fill_venv() {
   local log=$root/build/pip.log base wanted
   if is_filled "$1" "$2"; then
@@ -135,10 +152,38 @@ fill_venv() {
   # Isolated, and from a folder of our own: neither modules nor settings of the folder in which a tool is called count.
   if ! (cd -- "$root" && "$base" -I -m venv --system-site-packages "$1" && "$1/bin/python" -I -m pip install --no-input \
     --disable-pip-version-check --require-hashes --requirement "$2") >"$log" 2>&1 </dev/null 9>&-; then
-    { grep '^ERROR' -- "$log" || tail -n 15 -- "$log"; } >&2
-    stop "pip failed, which needs the network this once; its messages are in $log"
+    explain_pip "$log" "$2"
+    return 1
   fi
   printf '%s\n' "$wanted" >"$1/installed.txt"
+}
+
+# explain_pip LOG REQUIREMENTS: why pip failed, in our words, and behind them what of pip's own shows it.
+explain_pip() {
+  local log=$1 why shown='^(WARNING: Retrying|Could not fetch)'
+  if grep -q 'DO NOT MATCH THE HASHES' -- "$log"; then
+    why="what it got is not among the hashes of ${2#"$root/"}, which are of CPython 3.11 to 3.14 on x86-64 and 64-bit ARM:
+  this is $("$base" --version) on $(uname -m). On one of those the file was changed on its way"
+    shown='^ +(.* from |Expected|Got)'
+  elif grep -qE 'CERTIFICATE_VERIFY_FAILED|SSLError' -- "$log"; then
+    why='it does not trust the certificate of the package index. Behind a proxy that shows one of its own, name a file with it:
+  export PIP_CERT=/path/to/certificates.pem'
+  elif grep -qE 'ProxyError|Tunnel connection failed' -- "$log"; then
+    why="the proxy does not let it through: https_proxy=${https_proxy:-${HTTPS_PROXY:-}}"
+  elif grep -qE '^WARNING: Retrying|timed out|unreachable' -- "$log"; then
+    why='it does not reach the package index, which it needs this once: without a network of its own a machine needs a proxy
+  (export https_proxy=http://HOST:PORT) or an index of its own (export PIP_INDEX_URL=...)'
+  elif grep -qE 'ensurepip|No module named pip' -- "$log"; then
+    why='Python lacks it: apt-get install python3-venv'
+    shown='ensurepip|No module named'
+  else
+    why="it finds no file for $("$base" --version) on $(uname -m), or cannot install it"
+    shown='^ERROR'
+  fi
+  say "pip failed: $why"
+  { grep -E -- "$shown" "$log" || tail -n 5 -- "$log"; } | sed -E 's/^ +//; s/^WARNING: Retrying .* after/pip: after/; s/^/  /' | cut -c1-300 \
+    | awk '!seen[$0]++' | head -n 6 >&2
+  say "  all its messages are in $log"
 }
 
 # build_program PRESET TARGET: configures where needed, builds, and shows errors only. The preset developer has the

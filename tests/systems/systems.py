@@ -4,7 +4,7 @@
   systems.py --folder FOLDER [--docs FILE]
 
 FOLDER is that of tools/check_systems, which makes and calls this: SYSTEM.found says what a system is, SYSTEM.gfb runs its
-program. All are compared with the first one, on one rank; the unit tests run on several.
+program. All are compared with the first one, on one rank; the tests run on several.
 """
 
 import argparse
@@ -28,11 +28,11 @@ VIBRATIONS = Scene("shells, small vibrations", merged(SHELL, scene={"analysis": 
 PAGE = """# Systems on which gfb was built and tested
 
 Written by `tools/check_systems --docs docs/measured/systems.md`: releases of Debian laid by debootstrap, each with its own
-compilers and libraries, amd64. On each gfb was built as a user builds it, ran all unit tests (some on four ranks), and small
-scenes, whose numbers are compared with those of the first row. *64 bits*: Debian's PETSc and SLEPc of 64-bit indices
-(`libpetsc64-real-dev`, `libslepc64-real-dev`).
+compilers and libraries, amd64. On each, bare at first, the README's two commands were called, `tools/run` and `tools/test` (with
+64 bits: its unit tests), and small scenes ran, whose numbers are compared with those of the first row. *64 bits*: Debian's PETSc
+and SLEPc of 64-bit indices (`libpetsc64-real-dev`, `libslepc64-real-dev`).
 
-| system | date | gfortran | MPI | PETSc, SLEPc | HDF5 | MUMPS | METIS | SuiteSparse | unit tests |
+| system | date | gfortran | MPI | PETSc, SLEPc | HDF5 | MUMPS | METIS | SuiteSparse | tests |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 {systems}
 

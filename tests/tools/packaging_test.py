@@ -6,7 +6,9 @@ import importlib.util
 import os
 import pathlib
 import re
+import shutil
 import subprocess
+import tempfile
 import unittest
 
 PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
@@ -26,6 +28,43 @@ class Recipes(unittest.TestCase):
                               ("share/man/man1/gfb.1", r'"gfb ([\d.]+)"')):
             self.assertEqual(re.findall(pattern, text_of(name), re.MULTILINE), [VERSION], name)
         self.assertEqual(set(re.findall(r"gfb[-_](\d+\.\d+\.\d+)", text_of("docs/manual/first_steps.md"))), {VERSION})
+
+    def test_commit(self):
+        """The program is named after its commit: of a checkout, of an archive that git has made; any other copy is a release, also inside of
+        another project's checkout."""
+        def commit_of(folder):
+            subprocess.run(["cmake", "-D", f"SOURCE={folder}", "-D", f"BINARY={self.place/'built'}", "-D", "PROJECT_VERSION=1.2.3", "-P",
+                            folder/"tools/cmake/write_version.cmake"], check=True, capture_output=True)
+            return re.search(r'GFB_COMMIT "(.*)"', (self.place/"built/include/gfb_version.h").read_text(encoding="utf-8"))[1]
+
+        def git(*words):
+            return subprocess.run(["git", "-C", self.place/"checkout", "-c", "user.name=x", "-c", "user.email=x@x", *words], check=True,
+                                  capture_output=True, env={**os.environ, "GIT_CONFIG_GLOBAL": os.devnull}).stdout
+        with tempfile.TemporaryDirectory() as place:
+            self.place = pathlib.Path(place)
+            for name in ("tools/cmake/write_version.cmake", "tools/cmake/archived_commit.txt", "include/gfb_version.h.in", ".gitattributes"):
+                (self.place/"checkout"/name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(PROJECT/name, self.place/"checkout"/name)
+            self.assertEqual(commit_of(self.place/"checkout"), "release")
+            git("init")
+            git("add", ".")
+            git("commit", "-m", "x")
+            commit = git("rev-parse", "HEAD").decode()[:12]
+            self.assertEqual(commit_of(self.place/"checkout"), commit)
+            for name in ("archive", "checkout/archive"):
+                (self.place/name).mkdir()
+                subprocess.run(["tar", "-x", "-C", self.place/name], input=git("archive", "HEAD"), check=True)
+                self.assertEqual(commit_of(self.place/name), commit)
+                shutil.copy(PROJECT/"tools/cmake/archived_commit.txt", self.place/name/"tools/cmake")
+                self.assertEqual(commit_of(self.place/name), "release")
+
+    def test_hashes(self):
+        """A package of Python alone has one hash, one for every CPython two, x86-64 and 64-bit ARM; others those of 3.11 to 3.14."""
+        for name in ("tools/requirements.txt", "tools/requirements_studio.txt"):
+            for pin, hashes in re.findall(r"^(\S+==\S+) \\\n((?:  --hash=.*\n)+)", text_of(name), re.MULTILINE):
+                found = re.findall(r"sha256:[0-9a-f]{64}", hashes)
+                self.assertEqual(len(set(found)), len(found), pin)
+                self.assertIn(len(found), (8,) if pin.startswith("vtk==") else (1, 2, 8), f"{name}: {pin}")
 
     def test_python(self):
         """What a user needs of tools/gfb is in the package; what needs a checkout is not."""

@@ -111,9 +111,51 @@ rm -- "$scratch/broken"
 call "$copy/tools/studio" --install
 expect 3 'tools/studio --install puts it there' 'installs nothing where nothing is to be installed'
 GFB_INSTALL=yes PIP_NO_INDEX=1 PIP_FIND_LINKS='' call bash -c 'source "$1/tools/setup.sh"; need_studio_venv' bash "$copy"
-expect 3 'pip failed, which needs the network this once' 'says what is missing without a network'
+expect 3 'pip failed: it finds no file for Python' 'says what is missing without an index'
 [[ ! -e $copy/build/studio_venv/installed.txt ]] || status=half-a-library
 expect 3 'installing in build/studio_venv' 'and the next start tries again'
+
+# --- why pip fails: messages of pip 23 behind a proxy that is not there, with another certificate, without a network, for another Python ---
+explain() {
+  printf '%s\n' "$1" >"$scratch/pip.log"
+  call bash -c 'source "$1/tools/setup.sh"; base=python3; explain_pip "$2" "$1/tools/requirements.txt"' bash "$copy" "$scratch/pip.log"
+}
+retry='WARNING: Retrying (Retry(total=0, connect=None, read=None, redirect=None, status=None)) after connection broken by'
+none='ERROR: Could not find a version that satisfies the requirement vtk==9.7.2 (from versions: none)'
+explain "$retry 'ProxyError('Cannot connect to proxy.', NewConnectionError('<object>: [Errno 111] Connection refused'))': /simple/vtk/
+$none"
+expect 0 'the proxy does not let it through' 'a proxy'
+explain "$retry 'SSLError(SSLCertVerificationError(1, '[SSL: CERTIFICATE_VERIFY_FAILED] self-signed certificate (_ssl.c:1006)'))': /simple/vtk/
+$none"
+expect 0 'export PIP_CERT=' 'a certificate'
+expect 0 'self-signed certificate' "and pip's own words"
+explain "$retry 'NewConnectionError('<object>: Failed to establish a new connection: [Errno -2] Name or service not known')': /simple/vtk/
+$none"
+expect 0 'it does not reach the package index' 'no network'
+[[ $said != *'from versions: none'* ]] || status=a-wrong-track
+expect 0 '' 'and not that there were no such package'
+explain 'ERROR: THESE PACKAGES DO NOT MATCH THE HASHES FROM THE REQUIREMENTS FILE. Examine them carefully; someone may have tampered with them.
+    vtk==9.7.2 from https://example.org/vtk-9.7.2-cp315-cp315-linux_x86_64.whl (from -r requirements.txt (line 7)):
+        Expected sha256 44a8
+             Got        2b1d'
+expect 0 'CPython 3.11 to 3.14 on x86-64 and 64-bit ARM' 'a Python without hashes'
+expect 0 'vtk-9.7.2-cp315' 'and which file it was'
+[[ $said != *tampered* ]] || status=frightens
+expect 0 '' 'without frightening'
+
+# --- packages, where the user is not root: those of both commands at once ---
+mkdir -- "$scratch/apt"
+for name in dpkg-query apt-get sudo; do
+  printf '#!/bin/sh\nexit 1\n' >"$scratch/apt/$name"
+done
+chmod +x "$scratch/apt/"*
+chmod 755 "$scratch"
+as_user=()
+((EUID != 0)) || as_user=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+GFB_INSTALL=yes PATH=$scratch/apt:$PATH call "${as_user[@]}" bash -c 'source "$1/tools/setup.sh"; need_packages "${run_packages[@]}"' bash "$copy"
+for name in gfortran petsc-dev python3-venv hunspell-en-gb; do
+  expect 3 " $name" "packages of tools/run and tools/test: $name"
+done
 
 # --- tools/check_petsc ---
 for wrong in '--version 3.26' '--version newest' '--jobs 0' '--folder' ''; do # its own folder has a blank here
@@ -171,6 +213,16 @@ END
   sed 's/^  private/   private  /' "$copy/src/good.f90" >"$copy/src/bad.f90"
   call "$copy/tools/check" --fix
   expect 0 'indented src/bad.f90' '--fix repairs indent and blanks'
+  # What needs no package of pip is checked and tested where pip fails; the call ends with a failure all the same.
+  rm -- "$copy/build/venv"
+  printf '#!/bin/sh\necho ctest "$@"\n' >"$scratch/bin/ctest"
+  chmod +x "$scratch/bin/ctest"
+  PATH=$scratch/bin:$normal_path PIP_NO_INDEX=1 PIP_FIND_LINKS='' call "$copy/tools/test" -L unit
+  expect 3 'pip failed: ' 'pip fails'
+  expect 3 'habits of Fortran are not looked at' 'without fortitude the rest is checked'
+  expect 3 'are in order' 'and found in order'
+  expect 3 '-L unit' 'and the tests run'
+  expect 3 'left out, as pip failed' 'and what was left out stands at the end'
 else
   echo 'findent or fortitude is not at hand: tools/check is not tested'
 fi

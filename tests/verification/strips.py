@@ -200,7 +200,8 @@ def check_reader(checks, folder, strip):
     try:
         import vtk
     except ImportError:
-        sys.exit("the vtk package is missing in this Python")
+        print("       no vtk in this Python: its reader is not asked")
+        return
     reader = vtk.vtkHDFReader()
     reader.SetFileName(f"{strip.stem}.bump_foil.vtkhdf")
     reader.Update()

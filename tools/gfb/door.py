@@ -19,7 +19,6 @@ import numpy
 import xarray
 
 from gfb.case import Case, CaseError, launcher, program
-from gfb.files import read_text
 from gfb.reading import read
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
 
