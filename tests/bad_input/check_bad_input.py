@@ -19,7 +19,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 LONGEST_MESSAGE = 20000  # bytes of one file; nobody reads more
-SECONDS = 60
+SECONDS = 900
 
 GOOD = """&bearing radius = 0.02, length = 0.04, clearance = 3.0e-5 /
 &gas viscosity = 1.95e-5, ambient_pressure = 101325.0 /

@@ -13,7 +13,7 @@ from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 from gfb.bench.faults import CASE  # noqa: E402 (gfb_run has made it known)
 from gfb.run import ENVIRONMENT, case_text  # noqa: E402
 
-SECONDS = 60
+SECONDS = 900
 AVX2 = {"avx2", "fma"}
 AVX512 = {f"avx512{part}" for part in ("f", "dq", "bw", "vl", "cd")}
 

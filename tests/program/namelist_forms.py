@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SECONDS = 60
+SECONDS = 900
 
 PLAIN = """&scene
   title = 'forms', analysis = 'fixed_position'

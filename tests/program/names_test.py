@@ -14,7 +14,7 @@ from gfb_run import GFB, MPIEXEC, Checks, read_summary  # noqa: E402
 from gfb.bench.faults import CASE  # noqa: E402 (gfb_run has made it known)
 from gfb.run import ENVIRONMENT, case_text  # noqa: E402
 
-SECONDS = 120
+SECONDS = 900
 TEXT = case_text(CASE)
 LONGEST = 255 - len(".unconverged.bump_foil.steps.vtkhdf")
 

@@ -13,7 +13,7 @@ from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 from gfb.bench.faults import CASE  # noqa: E402 (gfb_run has made it known)
 from gfb.run import ENVIRONMENT, case_text  # noqa: E402
 
-SECONDS = 60
+SECONDS = 900  # nothing here takes that long
 SAID = "gfb: MPI could not start: "
 NOWHERE = "/proc"  # where not even root makes a folder
 SWEEP = CASE | {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for i in range(1500))}}

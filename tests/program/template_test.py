@@ -13,7 +13,7 @@ from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 
 ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics", "load_capacity", "lift_off",
             "misalignment_allowance", "transient", "periodic", "thrust")
-SECONDS = 120
+SECONDS = 900
 
 
 def call(*words, folder, given="", ranks=1):

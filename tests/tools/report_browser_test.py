@@ -38,7 +38,7 @@ class BrowserTest(unittest.TestCase):
         """What is printed and what is logged where the browser opens a page."""
         done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--enable-logging=stderr",
                                f"--user-data-dir={folder/'profile'}", f"--window-size={WIDTH},2000", *options, page.as_uri()],
-                              capture_output=True, text=True, check=True, timeout=120)
+                              capture_output=True, text=True, check=True, timeout=900)
         return done.stdout, done.stderr
 
     def test_a_page_of_two_results(self):

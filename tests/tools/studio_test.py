@@ -33,7 +33,7 @@ from gfb.tool import ROOT  # noqa: E402
 
 LIBRARY = (ROOT/"build/studio_venv/installed.txt").exists()
 WITHOUT = "the library NiceGUI is not installed: tools/studio --install puts it into build/studio_venv"
-SECONDS = 60
+SECONDS = 300
 LONG = (ROOT/"inputs/transient_unbalance.nml").read_text(encoding="utf-8")
 HOSTILE = "<img src=x onerror=\"document.title='taken'\"><script>document.title='taken'</script>${document.title='taken'}`</script>"
 SMALL = f"""! what a bearing is
@@ -420,7 +420,7 @@ class Served(InFolder):
     def end(self):
         self.server.terminate()
         try:
-            _, self.complaint = self.server.communicate(timeout=20)
+            _, self.complaint = self.server.communicate(timeout=SECONDS)
         except subprocess.TimeoutExpired:
             self.server.kill()
             self.server.communicate()
@@ -428,7 +428,7 @@ class Served(InFolder):
 
     def ask(self, path, method="GET", body=None, **headers):
         """Status, headers and text of what the server answers."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=SECONDS)
         with contextlib.closing(connection):
             connection.request(method, path, body, {name.replace("_", "-"): value for name, value in headers.items()})
             answer = connection.getresponse()
@@ -439,7 +439,7 @@ class Served(InFolder):
         key = base64.b64encode(os.urandom(16)).decode()
         words = [f"GET {path} HTTP/1.1", f"Host: {host or f'127.0.0.1:{self.port}'}", "Upgrade: websocket", "Connection: Upgrade",
                  f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13", *([f"Origin: {origin}"] if origin else []), "", ""]
-        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as wire:
+        with socket.create_connection(("127.0.0.1", self.port), timeout=SECONDS) as wire:
             wire.sendall("\r\n".join(words).encode())
             return int(wire.recv(4096).split()[1])
 
@@ -525,7 +525,7 @@ class StartTest(InFolder):
             for words, status, said in ((["none"], 1, "no such folder"), (["--gfb", "none", "--port", "0", "none"], 1, "no such folder"),
                                         (["--port", str(taken.getsockname()[1])], 3, "--port"), (["--port", "99999999"], 3, "--port")):
                 done = subprocess.run([ROOT/"tools/studio", *words], capture_output=True, text=True, check=False, cwd=self.folder,
-                                      env={**os.environ, "GFB": program(), "GFB_INSTALL": "no"}, timeout=60)
+                                      env={**os.environ, "GFB": program(), "GFB_INSTALL": "no"}, timeout=SECONDS)
                 self.assertEqual((done.returncode, done.stderr.count("\n"), said in done.stderr), (status, 1, True), done.stderr)
 
 

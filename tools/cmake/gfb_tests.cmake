@@ -19,7 +19,8 @@ set(gfb_test_environment
   OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
   CACHE INTERNAL "environment of every test")
 
-# The environment, the labels and the limits of a test; those that may take longest begin first.
+# The environment, the labels and the limits of a test; those that may take longest begin first. The limit ends what hangs: a test
+# has ten times what it may take, as other work may run beside it.
 function(gfb_test_settings name)
   cmake_parse_arguments(TEST "" "PROCESSORS;TIMEOUT" "LABELS;ENVIRONMENT" ${ARGN})
   if(NOT TEST_PROCESSORS)
@@ -28,9 +29,10 @@ function(gfb_test_settings name)
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 600)
   endif()
+  math(EXPR limit "10 * ${TEST_TIMEOUT}")
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "${gfb_test_environment};${TEST_ENVIRONMENT}" LABELS "${TEST_LABELS}"
-    PROCESSORS ${TEST_PROCESSORS} TIMEOUT ${TEST_TIMEOUT} COST ${TEST_TIMEOUT})
+    PROCESSORS ${TEST_PROCESSORS} TIMEOUT ${limit} COST ${TEST_TIMEOUT})
 endfunction()
 
 # The modules of the stand-in: gfb_funit without MPI, gfb_pfunit with it. Called once.

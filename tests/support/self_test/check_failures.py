@@ -33,7 +33,7 @@ def main():
     module = re.search(r"(\w+)\.pf$", path).group(1)
     expected = expectations(path)
     run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                         timeout=120, check=False)
+                         timeout=900, check=False)
     lines = run.stdout.splitlines()
     mistakes = []
     if run.returncode == 0:
