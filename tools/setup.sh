@@ -65,14 +65,14 @@ need_packages() {
 
 # missing_packages PACKAGE...: those that are not installed, each once.
 missing_packages() {
-  local present package missing=' '
+  local present package lacking=' '
   # shellcheck disable=SC2016 # the ${} are dpkg-query's
   present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
   for package in "$@"; do
-    [[ $'\n'$present$'\n' == *$'\n'"installed $package"$'\n'* || $missing == *" $package "* ]] || missing+="$package "
+    [[ $'\n'$present$'\n' == *$'\n'"installed $package"$'\n'* || $lacking == *" $package "* ]] || lacking+="$package "
   done
-  missing=${missing# }
-  printf '%s' "${missing% }"
+  lacking=${lacking# }
+  printf '%s' "${lacking% }"
 }
 
 has_apt() {

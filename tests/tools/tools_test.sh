@@ -110,6 +110,7 @@ rm -- "$scratch/broken"
 # --- tools/studio ---
 call "$copy/tools/studio" --install
 expect 3 'tools/studio --install puts it there' 'installs nothing where nothing is to be installed'
+# shellcheck disable=SC2016 # the inner shell's
 GFB_INSTALL=yes PIP_NO_INDEX=1 PIP_FIND_LINKS='' call bash -c 'source "$1/tools/setup.sh"; need_studio_venv' bash "$copy"
 expect 3 'pip failed: it finds no file for Python' 'says what is missing without an index'
 [[ ! -e $copy/build/studio_venv/installed.txt ]] || status=half-a-library
@@ -118,6 +119,7 @@ expect 3 'installing in build/studio_venv' 'and the next start tries again'
 # --- why pip fails: messages of pip 23 behind a proxy that is not there, with another certificate, without a network, for another Python ---
 explain() {
   printf '%s\n' "$1" >"$scratch/pip.log"
+  # shellcheck disable=SC2016 # the inner shell's
   call bash -c 'source "$1/tools/setup.sh"; base=python3; explain_pip "$2" "$1/tools/requirements.txt"' bash "$copy" "$scratch/pip.log"
 }
 retry='WARNING: Retrying (Retry(total=0, connect=None, read=None, redirect=None, status=None)) after connection broken by'
@@ -152,6 +154,7 @@ chmod +x "$scratch/apt/"*
 chmod 755 "$scratch"
 as_user=()
 ((EUID != 0)) || as_user=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+# shellcheck disable=SC2016 # the inner shell's
 GFB_INSTALL=yes PATH=$scratch/apt:$PATH call "${as_user[@]}" bash -c 'source "$1/tools/setup.sh"; need_packages "${run_packages[@]}"' bash "$copy"
 for name in gfortran petsc-dev python3-venv hunspell-en-gb; do
   expect 3 " $name" "packages of tools/run and tools/test: $name"
