@@ -338,7 +338,9 @@ contains
             sweep%parameter == sweep_tilt_x .or. sweep%parameter == sweep_tilt_y
   end function tilts
 
-  !> A rigid pad leaves the shaft no more room than the clearance, at both ends of the bearing.
+  !> A rigid pad leaves the shaft no more room than the clearance, at both ends of the bearing. If
+  !> an equilibrium is sought an eccentricity is where the search begins, anywhere, and only of a
+  !> full circle it is known here that no place is better than the middle.
   subroutine check_rigid_position(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
@@ -367,9 +369,17 @@ contains
       character(len=*), intent(in) :: group, key
       type(operation_case_type), intent(in) :: operation
       integer, intent(in), optional :: point
+      real(wp), parameter :: rounding = 1.0e-9_wp !! of a turn [1]
+      type(operation_case_type) :: here
       real(wp) :: approach !! [m]
 
-      approach = approach_to_pad(scene%bearing, operation)
+      here = operation
+      if (scene%general%analysis == analysis_equilibrium) then
+        if (scene%bearing%pads > 1 .or. scene%bearing%preload > 0.0_wp .or. &
+            scene%bore%present .or. pad_angle(scene%bearing) < turn*(1.0_wp - rounding)) return
+        here%eccentricity = 0.0_wp
+      end if
+      approach = approach_to_pad(scene%bearing, here)
       call keys%rule(group, key, approach >= scene%bearing%clearance, 'moves the shaft by '// &
                      text(approach, 4)//' m towards the pad, which must stay below the '// &
                      'clearance of '//text(scene%bearing%clearance)//' m in a rigid bearing', point)

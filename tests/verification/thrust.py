@@ -197,6 +197,34 @@ def check_limits(checks, folder):
     checks.that("200 N on a runner tilted by 0.15 mrad: touch-down, which the log says", "touches down" in refused.log)
 
 
+def check_tilted_starts(checks, folder):
+    """A runner with a given tilt begins where the film is open: an independent finite-volume film, and the answers that other
+    starts lead to; between two bearings, too, where a tilt that takes all of the play is refused."""
+    ramp = {"part": 0.17777777777777778, "height": 2.0e-5}
+
+    def gap(name, tilt, more=None, foil=None, **groups):
+        return solve(folder, name, thrust({"axial_load": 40.0, "tilt": tilt} | (more or {}), "equilibrium", foil, ramp=ramp, **TIGHT, **groups))
+
+    found = gap("tilted_start", (0.0, 4.0e-4))
+    checks.below("tilt of 0.4 mrad: axial gap of an independent film", found["axial_gap"]/29.21e-6 - 1.0, 2.0e-3)
+    checks.below("tilt of 0.4 mrad: smallest film of it", found["minimum_gap"]/9.408e-6 - 1.0, 2.0e-3)
+    for foil, name in ((None, "rigid"), (SPRINGS | {"foundation_pressure": "local"}, "springs")):
+        for size, load in ((4.0e-4, 40.0), (6.0e-4, 40.0), (2.0e-3, 5.0)):
+            here, there = (gap("tilted_start", (0.0, size), {"axial_load": load} | more, foil)
+                           for more in ({}, {"axial_gap": 1.0e-4 + 0.05*size}))
+            checks.below(f"{name}, tilt of {size:.1e}: as from a wide gap", here["minimum_gap"]/there["minimum_gap"] - 1.0, 1.0e-9)
+        near, wide = (gap("tilted_start", (0.0, 6.0e-4), {"axial_gap": size}, foil) for size in (5.0e-6, 1.3e-4))
+        checks.below(f"{name}: as from a gap that the tilt closes", near["minimum_gap"]/wide["minimum_gap"] - 1.0, 1.0e-9)
+    play = {"bearing": {"axial_play": 9.0e-5}}
+    one = gap("tilted_play", (0.0, 4.0e-4), **play)
+    other = gap("tilted_play", (0.0, 4.0e-4), {"axial_load": -40.0}, **play)
+    checks.below("between two bearings, loads of both senses: one gap is the other's",
+                 (one["axial_gap"] + other["axial_gap"])/9.0e-5 - 1.0, 1.0e-6)
+    checks.that("between two bearings: the film is open", one["minimum_gap"] > 1.0e-6)
+    refused = solve(folder, "tilted_shut", thrust({"axial_load": 40.0, "tilt": (0.0, 1.0e-3)}, "equilibrium", ramp=ramp, **play), status=2)
+    checks.that("a tilt that takes the play: refused, with the reason", "wherever it stands" in refused.log)
+
+
 def check_ranks(checks, folder):
     """Two ranks give the answer of one."""
     groups = thrust({"axial_load": 150.0, "moment": (0.3, -0.1)}, "equilibrium", SPRINGS, **TIGHT)
@@ -220,6 +248,7 @@ def main():
             check_rotor(checks, folder)
             check_strips(checks, folder)
             check_limits(checks, folder)
+            check_tilted_starts(checks, folder)
             check_ranks(checks, folder)
     checks.close()
 

@@ -5,9 +5,10 @@
 module gfb_contactless_start
   use gfb_kinds, only: wp
   use gfb_units, only: pi
-  use gfb_ending, only: path_lost
+  use gfb_ending, only: path_lost, path_touches_at
   use gfb_text, only: text
-  use gfb_film_surface, only: axial => axial_coordinate
+  use gfb_film_surface, only: axial => axial_coordinate, translations
+  use gfb_model_case, only: foil_rigid
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -17,6 +18,7 @@ module gfb_contactless_start
   use gfb_start_problem, only: start_problem_type, trial_settings, clearance_of, usual_eccentricity
   use gfb_saved_state, only: saved_state_type
   use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at, put_at_rest, room_at_rest
+  use gfb_film_room, only: smallest_gap_at_rest, closing_gaps, open_place
   implicit none (type)
   private
   public :: try_from_rest, try_laid_down, try_from_gap
@@ -40,6 +42,10 @@ contains
 
     associate (bearing => problem%bearing, newton => problem%newton)
       call guess_position(bearing, problem%scene, problem%target, usual_eccentricity)
+      if (bearing%floats) then
+        call make_room(problem, report)
+        if (report%has_cause()) return
+      end if
       if (bearing%floats .and. problem%target%speed > 0.0_wp) then
         call try_directly(bearing, newton, problem%target, problem%settings, report)
         if (report%converged()) return
@@ -51,21 +57,63 @@ contains
     end associate
   end subroutine try_from_rest
 
+  !> Moves a shaft that floats to where the film is open while no foil is deflected, if it begins elsewhere. In a rigid bearing
+  !> whose tilt leaves no such place that is the end.
+  subroutine make_room(problem, report)
+    type(start_problem_type), intent(inout) :: problem
+    type(path_report_type), intent(inout) :: report !! has a cause where there is no room
+    type(operating_point_type) :: point
+    real(wp) :: place(2)
+    logical :: exists
+
+    point = problem%target
+    point%place(:2) = problem%bearing%eccentricity()
+    call open_place(problem%bearing, point, place, exists)
+    if (exists) then
+      if (any(abs(place - point%place(:2)) > 0.0_wp)) call place_shaft(problem%bearing, place)
+    else if (problem%scene%model%foil == foil_rigid) then
+      call refuse_room(problem, 'its tilt closes the gap', report)
+    end if
+  end subroutine make_room
+
+  !> Says that the gap alone leaves no place for the shaft.
+  subroutine refuse_room(problem, why, report)
+    type(start_problem_type), intent(inout) :: problem
+    character(len=*), intent(in) :: why !! what closes it
+    type(path_report_type), intent(inout) :: report
+
+    call put_at_rest(problem%bearing, problem%target)
+    report%ending = path_touches_at('wherever it stands: '//why)
+    report%reached = problem%bearing%point
+    problem%no_room = .true.
+  end subroutine refuse_room
+
   !> The runner held at a gap at which its ramp bears most, 1.2 times the gap, or at that asked for where it is wider; from there to the gap asked
-  !> for, or released.
+  !> for, or released. A tilted runner is held as far above the gap at which it meets the pads.
   subroutine try_from_gap(problem, report)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(path_report_type), intent(out) :: report !! how it ended
     type(operating_point_type) :: held
     type(path_settings_type) :: downwards
     type(saved_state_type) :: start
+    real(wp) :: closing(2)
 
     downwards = problem%settings
     downwards%touch_down_gap = 0.0_wp
-    associate (bearing => problem%bearing, newton => problem%newton, target => problem%target)
+    associate (bearing => problem%bearing, newton => problem%newton, target => problem%target, play => problem%scene%bearing%play)
       held = target
-      held%place(axial) = -wide_gap(bearing, problem%scene%bearing%play, target)
+      closing = closing_gaps(bearing, target, play)
+      if (play > 0.0_wp .and. sum(closing) >= play) then
+        if (problem%scene%model%foil == foil_rigid) then
+          call refuse_room(problem, 'its tilt takes '//text(sum(closing), 4)//' m of axial_play', report)
+          return
+        end if
+        held%place(translations + 1:) = held%place(translations + 1:)*room_at_rest*play/sum(closing) ! the rest of it comes with the load
+        closing = closing_gaps(bearing, held, play)
+      end if
+      held%place(axial) = -wide_gap(bearing, play, target, closing)
       if (bearing%floats .and. target%place(axial) < 0.0_wp) held%place(axial) = target%place(axial)
+      if (.not. smallest_gap_at_rest(bearing, held) > 0.0_wp) held%place(axial) = -wide_gap(bearing, play, target, closing)
       call newton%log%detail('runner held at a gap of '//text(-held%place(axial), 4)//' m')
       call put_at_rest(bearing, held)
       call start%save(bearing)
@@ -74,11 +122,11 @@ contains
         call start%restore(bearing)
         call follow_path(bearing, newton, held, 1.0_wp, downwards, report)
       end if
-      if (report%converged() .and. .not. bearing%floats .and. abs(held%place(axial) - target%place(axial)) > 0.0_wp) then
+      if (report%converged() .and. .not. bearing%floats .and. any(abs(held%place - target%place) > 0.0_wp)) then
         call follow_path(bearing, newton, target, 1.0_wp, downwards, report)
       end if
       if (report%converged() .and. bearing%floats) then
-        call approach_load(bearing, newton, problem%scene%bearing%play, target, downwards, report)
+        call approach_load(bearing, newton, play, closing, target, downwards, report)
         call start%destroy()
         call start%save(bearing)
         call solve_at(bearing, newton, target, .false., problem%settings, report, max_iterations)
@@ -94,30 +142,37 @@ contains
   end subroutine try_from_gap
 
   !> A gap that is wide enough to begin with: the ramp bears most at 1.2 times it, or that asked for is wider. A runner between
-  !> two bearings begins no further from the middle of its play than it is to come, and there where nothing loads it.
-  pure real(wp) function wide_gap(bearing, play, target) result(gap)
+  !> two bearings begins no further from the middle of its play than it is to come, and there where nothing loads it. What a tilt
+  !> takes off the gap comes to it where little would be left.
+  pure real(wp) function wide_gap(bearing, play, target, closing) result(gap)
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: play !! 0: there is one bearing [m]
     type(operating_point_type), intent(in) :: target
+    real(wp), intent(in) :: closing(2) !! axial gaps at which it meets the pads of both sides [m]
+    real(wp) :: usual, near
     logical :: other !! the other one of two bearings has the smaller gap
 
-    associate (usual => bearing%clearance*exp(gap_step), wanted => -target%place(axial))
+    associate (wanted => -target%place(axial))
+      other = play > 0.0_wp .and. (wanted > 0.5_wp*play .or. (bearing%floats .and. target%load(axial) > 0.0_wp))
+      near = closing(merge(2, 1, other))
+      usual = bearing%clearance*exp(gap_step)
+      if (near > room_at_rest*usual) usual = usual + near
       gap = max(usual, wanted)
       if (.not. play > 0.0_wp) return
-      other = wanted > 0.5_wp*play .or. (bearing%floats .and. target%load(axial) > 0.0_wp)
-      gap = min(max(usual, merge(play - wanted, wanted, other .and. wanted > 0.0_wp)), 0.5_wp*play)
+      gap = min(max(usual, merge(play - wanted, wanted, other .and. wanted > 0.0_wp)), 0.5_wp*(play + near - closing(merge(1, 2, other))))
       if (other) gap = play - gap
-      if (bearing%floats .and. .not. abs(target%load(axial)) > 0.0_wp) gap = 0.5_wp*play
+      if (bearing%floats .and. .not. abs(target%load(axial)) > 0.0_wp) gap = 0.5_wp*(play + closing(1) - closing(2))
     end associate
   end function wide_gap
 
   !> From one held gap to another until the film carries about the load: its force is next to a power of the gap, found from the
   !> last two. Newton's method leads from there to the load. Of 60 bearings at random as many have an answer without these steps,
-  !> 45, at 713 factorizations instead of 589. Of two bearings it is the gap of the loaded one.
-  subroutine approach_load(bearing, newton, play, target, settings, report)
+  !> 45, at 713 factorizations instead of 589. Of two bearings it is the gap of the loaded one, of a tilted runner what is left of it.
+  subroutine approach_load(bearing, newton, play, closing, target, settings, report)
     type(bearing_system_type), intent(inout) :: bearing !! with an answer at a held gap
     type(newton_type), target, intent(inout) :: newton
     real(wp), intent(in) :: play !! of a runner between two bearings, else 0 [m]
+    real(wp), intent(in) :: closing(2) !! axial gaps at which it meets the pads of both sides [m]
     type(operating_point_type), intent(in) :: target
     type(path_settings_type), intent(in) :: settings
     type(path_report_type), intent(inout) :: report
@@ -129,7 +184,7 @@ contains
 
     if (.not. abs(target%load(axial)) > 0.0_wp) return
     side = sign(1.0_wp, -target%load(axial))
-    origin = merge(-play, 0.0_wp, side < 0.0_wp) ! where that gap is none
+    origin = merge(closing(2) - play, -closing(1), side < 0.0_wp) ! where that gap is none
     power = 1.0_wp
     do trial = 1, most_gaps
       force = bearing%reaction()

@@ -199,11 +199,13 @@ contains
     type(nearest_type) :: nearest
     integer, allocatable :: starts(:)
     logical :: ends, stopped
-    integer :: i, spent_before
+    integer :: i, spent_before, factors_before
 
     spent_before = problem%newton%iterations
+    factors_before = problem%newton%factorizations
     starts = starts_of(problem)
     problem%from_smaller = .false.
+    problem%no_room = .false.
     do i = 1, size(starts)
       call problem%newton%log%stage('start: '//start_name(starts(i)))
       problem%may_give_up = problem%bearing%floats .or. starts(i) /= start_released_late
@@ -213,7 +215,7 @@ contains
         ends = .false.
         report%ending = path_stopped()
       end if
-      if (report%converged() .or. ends) exit
+      if (report%converged() .or. ends .or. problem%no_room) exit
       if (leaves_a_state(starts(i))) call keep_nearest(problem, report, nearest)
       if (stopped .or. i == size(starts)) exit
       if (problem%newton%iterations - spent_before > most_iterations) then
@@ -224,12 +226,15 @@ contains
       call problem%newton%log%line('no answer from the start "'//start_name(starts(i))//'" ('//report%reason()// &
                                    '); the next: "'//start_name(starts(i + 1))//'"')
     end do
-    if (.not. (report%converged() .or. ends) .and. nearest%known) then
+    if (.not. (report%converged() .or. ends .or. problem%no_room) .and. nearest%known) then
       report = nearest%report
       call nearest%kept%restore(problem%bearing)
     end if
     call nearest%kept%destroy()
-    if (report%converged() .or. stopped) return
+    if (report%converged() .or. stopped .or. problem%no_room) return
+    ! From the answer of a smaller system alone Newton's method may not even begin; a search may.
+    if (problem%newton%iterations == spent_before .and. problem%newton%factorizations == factors_before .and. .not. &
+        (problem%refused .or. problem%carried_only)) error stop 'a search for an equilibrium has solved nothing'
     ends = suits_lighter_load(problem, report)
     if (ends) call try_lighter_load(problem, report)
   end subroutine try_starts

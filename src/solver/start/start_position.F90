@@ -11,6 +11,7 @@ module gfb_start_position
   use gfb_film_surface, only: translations
   use gfb_solid_contact, only: contact_pressure
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_film_room, only: undeflected_gap
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   implicit none (type)
@@ -118,21 +119,6 @@ contains
       free%place = wanted%place*room_at_rest*clearance/approach
     end associate
   end function free_position
-
-  !> Gap at this rank's nodes, pad by pad, while no foil is deflected [m].
-  pure function undeflected_gap(bearing, point) result(gap)
-    type(bearing_system_type), intent(in) :: bearing
-    type(operating_point_type), intent(in) :: point
-    real(wp) :: gap(bearing%film_nodes())
-    integer :: i
-
-    gap = 0.0_wp
-    do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i))
-        gap(pad%first_node + 1:pad%last_node) = pad%film%gap(point, gap(pad%first_node + 1:pad%last_node))
-      end associate
-    end do
-  end function undeflected_gap
 
   !> Puts the bearing at rest at a fixed position: ambient pressure everywhere, exactly.
   subroutine put_at_rest(bearing, position)

@@ -49,6 +49,7 @@ module gfb_start_problem
     logical :: may_give_up = .false.     !! the start has longer least steps than the scene, and fewer of them
     type(saved_state_type) :: anchor      !! out: a state to show a refusal from, on a larger system, too
     logical :: from_smaller = .false.    !! out: the answer was found from the smaller system's
+    logical :: no_room = .false.         !! out: the gap alone shows that there is no place for the shaft
   end type start_problem_type
 
 contains
