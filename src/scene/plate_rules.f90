@@ -66,6 +66,7 @@ contains
       call keys%rule(bumps, angles, any(given%crest_angles > pad_angle(bearing)* &
                      (1.0_wp + rounding)), 'must lie on the pad, which ends at '// &
                      text(pad_angle(bearing)*degrees, 4)//' deg')
+      call warn_of_near_crests(keys, scene)
       if (n > 0) return
       if (.not. given%pitch%value > 0.0_wp) return
       do strip = 1, given%strips
@@ -88,4 +89,26 @@ contains
       end do
     end associate
   end subroutine check_lines
+
+  !> Warns of crests that stand nearer to each other than an element is long: one of them has no
+  !> side of its own, or the elements there are out of proportion.
+  subroutine warn_of_near_crests(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp) :: element !! [rad]
+    integer :: i
+
+    if (scene%mesh%circumferential_elements < 1) return
+    element = pad_angle(scene%bearing)/real(scene%mesh%circumferential_elements, wp)
+    associate (crests => scene%bump_foil%crest_angles)
+      do i = 2, size(crests)
+        if (crests(i) <= crests(i - 1)) return
+        if (crests(i) - crests(i - 1) >= element*(1.0_wp - rounding)) cycle
+        call keys%warn(bumps, angles, 'puts a crest '// &
+                       text((crests(i) - crests(i - 1))/element, 2)//' of an element behind '// &
+                       'the one before it: give more circumferential_elements', i)
+        return
+      end do
+    end associate
+  end subroutine warn_of_near_crests
 end module gfb_plate_rules

@@ -6,7 +6,7 @@ module gfb_thrust_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_foil_cases, only: bump_foil_case_type, one_strip
   use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_plate, foil_shell, &
-                            foundation_pressure_local
+                            foundation_pressure_local, meshes_top_foil
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
@@ -64,6 +64,7 @@ contains
                      keys%meant('operation', 'axial_load') .and. .not. &
                      scene%shaft_contact%present, 'cannot be carried by flat pads under an '// &
                      'aligned runner, whose film has no wedge: give &ramp')
+      call check_ramp(keys, scene)
       call check_strips(keys, scene)
       call keys%refuse('bump_foil', 'strip_form', all(foil /= [0, foil_shell]), &
                        "needs foil = 'shell' in &model: crests of springs are rays")
@@ -99,6 +100,35 @@ contains
       any(abs(scene%operation%tilt) > 0.0_wp) .or. any(scene%sweep%parameter == [sweep_tilt_x, &
       sweep_tilt_y]) .or. scene%operation%tilt_is_sought
   end function bearing_wedges
+
+  !> Ramp and land are as long as elements of the film at the pad's edges, which may be narrower
+  !> than the others: see `axial_rows`.
+  subroutine check_ramp(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    !> of an element, which a side on the end of the ramp leaves: less is out of proportion [1]
+    real(wp), parameter :: shortest = 0.25_wp
+    real(wp) :: edge, rate !! an element there, over the arc; of the refinement [1]
+
+    associate (part => scene%bearing%ramp_part, elements => scene%mesh%circumferential_elements, &
+               refinement => scene%mesh%edge_refinement)
+      if (.not. part > 0.0_wp .or. part > 1.0_wp .or. elements < 2) return
+      edge = 1.0_wp/real(elements, wp)
+      if (refinement > 1.0_wp .and. .not. meshes_top_foil(scene%model%foil)) then
+        rate = acosh(sqrt(refinement))
+        edge = 0.5_wp*(1.0_wp - tanh(rate*(1.0_wp - 2.0_wp*edge))/tanh(rate))
+      end if
+      call keys%rule('ramp', 'part', part < shortest*edge, 'makes a ramp of '// &
+                     text(part/edge, 2)//' of an element of the film, too short to be '// &
+                     'computed: an element at the edge covers '//text(edge, 2)//' of the arc')
+      call keys%rule('ramp', 'part', part < 1.0_wp .and. 1.0_wp - part < shortest*edge, &
+                     'leaves a land of '//text((1.0_wp - part)/edge, 2)//' of an element of '// &
+                     'the film: 1 is a ramp without a land')
+      if (part >= edge .or. part < shortest*edge) return
+      call keys%warn('ramp', 'part', 'makes a ramp of '//text(part/edge, 2)//' of an element '// &
+                     'of the film: give more circumferential_elements')
+    end associate
+  end subroutine check_ramp
 
   !> Strips side by side under local pressure: one more than cuts, which lie on the pad.
   subroutine check_strips(keys, scene)

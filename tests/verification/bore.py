@@ -118,6 +118,48 @@ def check_same(checks, folder):
     checks.below("1 and 2 ranks", math.dist(one.eccentricity, two.eccentricity)/bearing.clearance, 1.0e-10)
 
 
+def sampled(points, waves, amplitude):
+    """A measured bore: waves at so many points."""
+    angles = [math.tau*i/points for i in range(points)]
+    return {"profile_angle": angles, "profile_height": [amplitude*math.cos(waves*angle) for angle in angles]}
+
+
+def check_measured(checks, folder):
+    """Waves measured at more points than the mesh has sides are those waves, but for the chords between the points: their mean
+    distance from a wave is a (n s)^2/12."""
+    waves, amplitude = 3, 1.0e-6
+    place = (-8.0e-6, 6.0e-6)
+    bearings = {"ring": (Bearing(leading_edge_condition="periodic"), {}, (128, 16)),
+                "biquadratic ring": (Bearing(leading_edge_condition="periodic"), {"model": {"film_order": 2}}, (64, 8)),
+                "pads": (Bearing(), {"pads": {"count": 3, "arc": 1.9, "preload": 0.2}}, (40, 16)),
+                "pads on springs": (Bearing(), {"pads": {"count": 3, "arc": 1.9}, "model": {
+                    "foil": "elastic_foundation", "foundation_stiffness": 2.0e9, "foundation_pressure": "local"}}, (40, 16)),
+                "slider": (Bearing(), {"pads": {"count": 1, "arc": 0.6, "first_leading_edge": 1.0}}, (200, 16))}
+    for name, (bearing, groups, mesh) in bearings.items():
+        def force(bore):
+            return run(folder, "measured", bearing, mesh=mesh, number=2.0, eccentricity=place, groups=groups | {"bore": bore}).force
+
+        exact = force({"waves": waves, "wave_amplitude": amplitude})
+        for points in (180, 1000) if name != "ring" else (120, 180, 401, 3600):
+            chords = amplitude/bearing.clearance*(waves*math.tau/points)**2/12.0
+            checks.below(f"{name}, {points} points as waves: force",
+                         math.dist(force(sampled(points, waves, amplitude)), exact)/math.hypot(*exact)/chords, 12.0 if name == "slider" else 4.0)
+
+
+def check_offset(checks, folder):
+    """One wave moves the bearing, and a shaft with a tilt that leaves no room in the middle of the circle begins where it is."""
+    load, tilt = (-0.1, 0.05), (0.0, 8.0e-4)
+    bearing = Bearing()
+    load = tuple(share*bearing.force_unit for share in load)
+    size = 0.5*bearing.length*tilt[1]/bearing.clearance
+    wave = {"waves": 1, "wave_amplitude": (1.0 - 0.5*size)*bearing.clearance, "wave_angle": math.pi}
+    plain, moved = (run(folder, "offset", bearing, mesh=(48, 12), number=3.0, load=load,
+                        groups=groups | {"operation": {"tilt": tilt}}) for groups in ({}, {"bore": wave}))
+    checks.below("tilted, one wave that shuts the middle: x",
+                 (plain["eccentricity_x"] - moved["eccentricity_x"] - wave["wave_amplitude"])/bearing.clearance, 1.0e-8)
+    checks.below("tilted, one wave that shuts the middle: y", (plain["eccentricity_y"] - moved["eccentricity_y"])/bearing.clearance, 1.0e-8)
+
+
 def check_pads(checks, folder):
     """Each of three pads has the bore, and the gas, of its place: shims on all of them, the shaft turned from pad to pad."""
     bearing, third, size = Bearing(), 2.0*math.pi/3.0, 6.0e-6
@@ -137,6 +179,8 @@ def main():
         check_rows(checks, folder)
         check_ring(checks, folder)
         check_same(checks, folder)
+        check_measured(checks, folder)
+        check_offset(checks, folder)
         check_pads(checks, folder)
     checks.close()
 

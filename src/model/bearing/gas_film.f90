@@ -5,7 +5,8 @@ module gfb_gas_film
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, widen, film_shapes, &
                                most_film_nodes
-  use gfb_bore_profile, only: bore_profile_type, bore_height
+  use gfb_bore_profile, only: bore_profile_type, bore_height, bore_kinks, kinks_between, &
+                              nearest_bore
   use gfb_film_surface, only: film_surface_type, shaft_coordinates, translations, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type, gas_factors_type
@@ -143,9 +144,7 @@ contains
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element), &
                  motion => film%point_motion(:, :, element))
-        angle = film%angle(nodes)
-        ! The element that closes a ring reaches beyond the last station.
-        where (maxval(angle) - angle > pi) angle = angle + 2.0_wp*pi
+        angle = unwound_angles(film, element)
         position(1, :) = film%surface%radius*angle
         position(2, :) = film%axial(nodes)
         call film_geometry(position, film%geometry(element), error)
@@ -168,22 +167,55 @@ contains
   pure subroutine put_bore(film, profile)
     type(gas_film_type), intent(inout) :: film !! this rank's film
     type(bore_profile_type), intent(in) :: profile !! of the bore
+    real(wp), allocatable :: kink(:)
     integer :: element, i
 
     if (.not. profile%present()) return
     film%bore = [(bore_height(profile, film%angle(i)), i=1, size(film%angle))]
     film%bore_excess = spread([(0.0_wp, i=1, size(film%shape, 2))], 2, size(film%element_nodes, 2))
+    kink = bore_kinks(profile)
     do element = 1, size(film%element_nodes, 2)
-      associate (nodes => film%element_nodes(:, element), &
-                 motion => film%point_motion(:, :, element))
-        do i = 1, size(film%shape, 2)
-          ! The first of the motions are cosine and sine of the angle.
-          film%bore_excess(i, element) = bore_height(profile, atan2(motion(2, i), motion(1, i))) &
-            - dot_product(film%shape(:, i), film%bore(nodes))
-        end do
+      associate (nodal => film%bore(film%element_nodes(:, element)))
+        film%bore_excess(:, element) = bore_at_points(film, profile, kink, element) &
+          - [(dot_product(film%shape(:, i), nodal), i=1, size(film%shape, 2))]
       end associate
     end do
   end subroutine put_bore
+
+  !> Height of the bore at the Gauss points of an element; of kinks inside it what they are in the
+  !> mean.
+  pure function bore_at_points(film, profile, kink, element) result(height)
+    type(gas_film_type), intent(in) :: film
+    type(bore_profile_type), intent(in) :: profile
+    real(wp), intent(in) :: kink(:) !! all its kinks, rising [rad]
+    integer, intent(in) :: element
+    real(wp) :: height(size(film%shape, 2)) !! [m]
+    real(wp) :: angle(size(film%shape, 1))
+    real(wp), allocatable :: inside(:)
+    integer :: i
+
+    angle = unwound_angles(film, element)
+    associate (ends => [minval(angle), maxval(angle)], motion => film%point_motion(:, :, element))
+      inside = kinks_between(kink, ends)
+      if (size(inside) > 0) then
+        height = nearest_bore(profile, ends, inside, nint(sqrt(real(size(angle), wp))) - 1, &
+                              matmul(angle, film%shape))
+      else
+        ! The first of the motions are cosine and sine of the angle.
+        height = [(bore_height(profile, atan2(motion(2, i), motion(1, i))), i=1, size(height))]
+      end if
+    end associate
+  end function bore_at_points
+
+  !> Angles of an element's nodes; the element that closes a ring reaches beyond the last station.
+  pure function unwound_angles(film, element) result(angle)
+    type(gas_film_type), intent(in) :: film
+    integer, intent(in) :: element
+    real(wp) :: angle(size(film%shape, 1)) !! [rad]
+
+    angle = film%angle(film%element_nodes(:, element))
+    where (maxval(angle) - angle > pi) angle = angle + 2.0_wp*pi
+  end function unwound_angles
 
   !> Adds a ramp to the rigid gap. Its end is a side of elements: shape functions have it right.
   pure subroutine put_ramp(film, height)

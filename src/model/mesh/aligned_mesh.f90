@@ -6,31 +6,64 @@ module gfb_aligned_mesh
   use gfb_film_mesh, only: film_mesh_type
   implicit none (type, external)
   private
-  public :: align_stations, kinks_inside, aligned_stations, elements_at_ends
+  public :: align_stations, kinks_inside, aligned_stations, elements_at_ends, largest_change
 
   real(wp), parameter :: on_side = 1.0e-8_wp         !! nearer is on a side, over an element [1]
   real(wp), parameter :: rounding = 1.0e-9_wp        !! of lengths that fit exactly, relative [1]
   real(wp), parameter :: alike = 1.0e-6_wp           !! of elements, that is none [1]
   real(wp), parameter :: shortest = 0.25_wp          !! element it makes, over an equal one [1]
+  real(wp), parameter :: longest = 2.0_wp            !! the same: a kink moves a side by half of one
+  !> of an element over its neighbour: one and a half beside the shortest [1]
+  real(wp), parameter, public :: most_change = 6.0_wp
 
 contains
 
   !> Puts the nearest side of an element on each kink; between them elements are equal.
   !>
-  !> A kink that would leave an element too short stays inside one.
+  !> A kink that would leave an element too short stays inside one. Where kinks are more than sides
+  !> can follow, those of a dense run stay inside all together, and then one by one those where an
+  !> element is out of proportion to its neighbour, until none is: a mesh has as many elements as
+  !> before, none longer than twice an equal one.
   pure subroutine align_stations(mesh, kink)
     type(film_mesh_type), intent(inout) :: mesh !! of equal elements
     real(wp), intent(in) :: kink(:) !! angles in [0, 2 pi), rising [rad]
-    real(wp) :: side(mesh%circumferential()/mesh%order + 1), element, angle(size(kink))
+    real(wp), dimension(mesh%circumferential()/mesh%order + 1) :: equal, side
+    real(wp), allocatable :: angle(:)
+    logical, allocatable :: dense(:)
+    integer :: worst
+
+    equal = sides(mesh)
+    angle = equal(1) + modulo(kink - equal(1), turn) ! a pad may reach beyond 2 pi
+    if (size(kink) > 0) angle = cshift(angle, minloc(angle, 1) - 1)
+    side = sides_on(equal, angle)
+    worst = out_of_proportion(side, mesh%periodic)
+    if (worst > 0) then
+      dense = in_dense_run(angle, (equal(size(equal)) - equal(1))/real(size(equal) - 1, wp))
+      angle = pack(angle, .not. dense)
+      side = sides_on(equal, angle)
+      worst = out_of_proportion(side, mesh%periodic)
+    end if
+    do while (worst > 0 .and. size(angle) > 0)
+      call leave_nearest(side(worst), mesh%periodic, angle)
+      side = sides_on(equal, angle)
+      worst = out_of_proportion(side, mesh%periodic)
+    end do
+    call put_sides(mesh, side)
+  end subroutine align_stations
+
+  !> Equal sides, moved onto kinks.
+  pure function sides_on(equal, angle) result(side)
+    real(wp), intent(in) :: equal(:) !! [rad]
+    real(wp), intent(in) :: angle(:) !! of kinks, from the first side on, rising [rad]
+    real(wp) :: side(size(equal))
+    real(wp) :: element
     integer :: i, last, near, n
 
-    n = size(side)
-    side = sides(mesh)
-    angle = side(1) + modulo(kink - side(1), turn) ! a pad may reach beyond 2 pi
-    if (size(kink) > 0) angle = cshift(angle, minloc(angle, 1) - 1)
+    n = size(equal)
+    side = equal
     element = (side(n) - side(1))/real(n - 1, wp)
     last = 1
-    do i = 1, size(kink)
+    do i = 1, size(angle)
       if (angle(i) - side(last) < shortest*element) cycle
       if (side(n) - angle(i) < shortest*element) exit
       near = min(max(last + 1, 1 + nint((angle(i) - side(1))/element)), n - 1)
@@ -39,8 +72,103 @@ contains
       last = near
     end do
     if (last > 1) call spread_sides(side, last, n, side(n))
-    call put_sides(mesh, side)
-  end subroutine align_stations
+  end function sides_on
+
+  !> Number of the side between two elements of which one is too long against the other or against
+  !> an equal one, where that is worst; 0: there is none.
+  pure integer function out_of_proportion(side, ring) result(worst)
+    real(wp), intent(in) :: side(:) !! [rad]
+    logical, intent(in) :: ring !! the last side is the first
+    real(wp) :: length(size(side)) !! behind each side [rad]
+    real(wp) :: before, most, here
+    integer :: i, n
+
+    n = size(side)
+    length(:n - 1) = side(2:) - side(:n - 1)
+    length(n) = length(merge(1, n - 1, ring)) ! of a pad nothing follows
+    worst = 0
+    most = 1.0_wp + rounding
+    do i = 2, n
+      before = length(i - 1)
+      if (.not. min(before, length(i)) > 0.0_wp) then
+        worst = i
+        return
+      end if
+      here = max(max(before, length(i))/min(before, length(i))/most_change, &
+                 max(before, length(i))*real(n - 1, wp)/(side(n) - side(1))/longest)
+      if (here <= most) cycle
+      most = here
+      worst = i
+    end do
+  end function out_of_proportion
+
+  !> Whether kinks belong to a run, each nearer to the next than an element, that has more of them
+  !> than sides may lie there.
+  pure function in_dense_run(angle, element) result(dense)
+    real(wp), intent(in) :: angle(:) !! rising [rad]
+    real(wp), intent(in) :: element  !! an equal one [rad]
+    logical :: dense(size(angle))
+    integer :: first, last
+
+    dense = .false.
+    first = 1
+    do while (first <= size(angle))
+      last = first
+      do while (last < size(angle))
+        if (angle(last + 1) - angle(last) >= element) exit
+        last = last + 1
+      end do
+      dense(first:last) = last - first + 1 > int((angle(last) - angle(first))/element) + 2
+      first = last + 1
+    end do
+  end function in_dense_run
+
+  !> Leaves out the kink that is nearest to a side.
+  pure subroutine leave_nearest(side, ring, angle)
+    real(wp), intent(in) :: side !! [rad]
+    logical, intent(in) :: ring !! a turn on it is the same
+    real(wp), allocatable, intent(inout) :: angle(:) !! of the kinks, one at least [rad]
+    real(wp) :: distance(size(angle))
+    integer :: nearest
+
+    distance = abs(angle - side)
+    if (ring) distance = min(distance, turn - distance)
+    nearest = minloc(distance, 1)
+    angle = [angle(:nearest - 1), angle(nearest + 1:)]
+  end subroutine leave_nearest
+
+  !> Longest element over its neighbour along the motion, and across it, and where: angle, and place
+  !> along a row.
+  pure subroutine largest_change(mesh, change, place)
+    type(film_mesh_type), intent(in) :: mesh !! the film's mesh
+    real(wp), intent(out) :: change(2) !! [1]
+    real(wp), intent(out) :: place(2)  !! of the sides between them [rad], [m]
+
+    call find_change(sides(mesh), mesh%periodic, change(1), place(1))
+    call find_change(mesh%row_axial(1::mesh%order), .false., change(2), place(2))
+  end subroutine largest_change
+
+  !> The same of one row of sides.
+  pure subroutine find_change(side, ring, change, place)
+    real(wp), intent(in) :: side(:) !! rising, two at least, in any unit [SI]
+    logical, intent(in) :: ring !! the last is the first
+    real(wp), intent(out) :: change, place !! [1], in their unit [SI]
+    real(wp) :: length(size(side) - 1), here
+    integer :: i, n
+
+    n = size(length)
+    length = side(2:) - side(:n)
+    change = 1.0_wp
+    place = side(1)
+    do i = merge(1, 2, ring), n
+      associate (before => length(merge(n, i - 1, i == 1)))
+        here = max(before, length(i))/min(before, length(i))
+      end associate
+      if (here <= change) cycle
+      change = here
+      place = side(i)
+    end do
+  end subroutine find_change
 
   !> How many kinks lie on the pad, and how many of them inside an element.
   pure subroutine kinks_inside(mesh, kink, on_pad, inside)

@@ -171,8 +171,9 @@ contains
     if (on_pad > 0 .and. inside == 0) then
       words = words//'; sides of elements on all '//text(on_pad)//' kinks'
     else if (on_pad > 0) then
-      words = words//'; '//text(inside)//' of '//text(on_pad)//' kinks lie inside elements: '// &
-              'the error that they leave shrinks with the square of an element''s length'
+      words = words//'; '//text(inside)//' of '//text(on_pad)//' kinks lie inside elements, '// &
+              'which take the bore there in the mean: the error that they leave shrinks with '// &
+              'the square of an element''s length'
     end if
     call log%line(words)
   end subroutine show_bore

@@ -22,6 +22,10 @@ module gfb_bearing_plan
   use gfb_general_film, only: film_flow_type, general_peclet
   use gfb_film_surface, only: entraining_speed
   use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_aligned_mesh, only: largest_change, most_change
+  use gfb_bearing_builder, only: film_mesh_of
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_units, only: degrees
   use gfb_foil_builder, only: plate_stations, stations_follow_crests
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core, linear_solver_iterative
@@ -154,6 +158,7 @@ contains
                   trim(merge(' biquadratic', '            ', &
                              plan%order == film_order_biquadratic))// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved')
+    call warn_of_change(film_mesh_of(scene, plan), log)
     sides = scene%bearing%all_pads()/scene%bearing%pads
     if (sides > 1) then
       call log%line('runner between two bearings: a mirror image of this one faces its '// &
@@ -192,6 +197,25 @@ contains
       call log%line('sweep: '//text(size(scene%sweep%values))//' points')
     end if
   end subroutine plan_bearing
+
+  !> Warns of elements of the film that are out of proportion to those beside them.
+  subroutine warn_of_change(mesh, log)
+    type(film_mesh_type), intent(in) :: mesh !! of the film
+    type(run_log_type), intent(in) :: log
+    real(wp) :: change(2), place(2)
+
+    call largest_change(mesh, change, place)
+    if (change(1) > most_change) then
+      call log%warning('the film''s elements beside '//text(place(1)*degrees, digits)// &
+                       ' deg differ by a factor of '//text(change(1), digits)//': what a side '// &
+                       'of them lies on there is too near to the next; answers may be rough')
+    end if
+    if (change(2) > most_change) then
+      call log%warning('rows of elements of the film beside '//trim(merge('radius', 'z =   ', &
+                       mesh%surface%is_ring()))//' '//text(place(2), digits)//' m differ by a '// &
+                       'factor of '//text(change(2), digits)//': answers may be rough')
+    end if
+  end subroutine warn_of_change
 
   !> Says that a scene is too small for its ranks.
   subroutine show_few(nodes, scene, log)
