@@ -146,6 +146,21 @@ def check_measured(checks, folder):
                          math.dist(force(sampled(points, waves, amplitude)), exact)/math.hypot(*exact)/chords, 12.0 if name == "slider" else 4.0)
 
 
+def check_rough(checks, folder):
+    """A trace with ripples that no mesh has sides for: a coarse mesh sees them in the mean. Taken at its points alone they would
+    leave 3e-3."""
+    ripples = range(20, 400, 7)
+
+    def height(angle):
+        return 1.0e-6*math.cos(3.0*angle) + 2.8e-8*sum(math.cos(wave*angle + wave*wave % 7) for wave in ripples)
+
+    angles = [math.tau*i/3600 for i in range(3600)]
+    trace = {"profile_angle": angles, "profile_height": [height(angle) for angle in angles]}
+    coarse, fine = (run(folder, "rough", Bearing(leading_edge_condition="periodic"), mesh=(elements, 8), number=2.0,
+                        eccentricity=(-8.0e-6, 6.0e-6), groups={"bore": trace}).force for elements in (128, 1024))
+    checks.below("rough trace of 3,600 points on 128 elements: force", math.dist(coarse, fine)/math.hypot(*fine), 5.0e-4)
+
+
 def check_offset(checks, folder):
     """One wave moves the bearing, and a shaft with a tilt that leaves no room in the middle of the circle begins where it is."""
     load, tilt = (-0.1, 0.05), (0.0, 8.0e-4)
@@ -180,6 +195,7 @@ def main():
         check_ring(checks, folder)
         check_same(checks, folder)
         check_measured(checks, folder)
+        check_rough(checks, folder)
         check_offset(checks, folder)
         check_pads(checks, folder)
     checks.close()
