@@ -10,6 +10,7 @@ module gfb_bearing_summary
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
   use gfb_heat_answer, only: heat_answer_type, heat_share_type
+  use gfb_modulus_law, only: is_usual_modulus, usual_words
   implicit none (type, external)
   private
   public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block, &
@@ -495,6 +496,10 @@ contains
         if (heat%top_foil_bends) words = text(whole%modulus(1), 4)//' in the top foil, '
         call log%line('modulus          '//words//text(whole%modulus(2), 4)//' in the bumps, '// &
                       'over youngs_modulus')
+        if (.not. all(is_usual_modulus(whole%modulus(merge(1, 2, heat%top_foil_bends):)))) then
+          call log%warning('modulus of the foils '//words//text(whole%modulus(2), 4)// &
+                           ' in the bumps, over youngs_modulus; usual is '//usual_words)
+        end if
       end if
       if (heat%off_table) call log%line('note: some foil is hotter or colder than the table or '// &
                     'the slope of its modulus goes: there it is as at the end')

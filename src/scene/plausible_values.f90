@@ -13,15 +13,17 @@ module gfb_plausible_values
   use gfb_sweep_case, only: sweep_keys, sweep_load, sweep_load_angle, &
                             sweep_speed, sweep_tilt_x, sweep_tilt_y, sweep_axial_load, &
                             sweep_axial_gap
+  use gfb_gas_case, only: usual_temperature
+  use gfb_thermal_case, only: foil_given
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: check_plausible
+  public :: check_plausible, check_tolerance
 
   !> What is usual of the values of some keys; signs do not count, and zero is always usual.
   type, public :: range_type
     real(wp) :: low, high       !! smallest and largest usual value [the keys' unit]
-    character(len=9) :: unit    !! the keys'
+    character(len=16) :: unit   !! the keys'
     character(len=19) :: others !! what the number may be meant in: units, the likeliest first
     character(len=207) :: keys !! `group%key`, with blanks between them
   end type range_type
@@ -69,15 +71,17 @@ module gfb_plausible_values
     range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'thermal%cooling_temperature '// &
                'thermal%sleeve_temperature thermal%sleeve_far_temperature'), &
     range_type(300.0_wp, 1.6e4_wp, 'J/(kg K)', 'J/(g K)', 'thermal%specific_heat'), &
-    range_type(0.1_wp, 2.0_wp, '1', '%', 'thermal%prandtl thermal%modulus_ratios'), &
-    range_type(1.0e-4_wp, 1.0e3_wp, 'W/K', 'mW/K', &
+    range_type(0.1_wp, 2.0_wp, '1', '%', 'thermal%prandtl'), &
+    range_type(0.2_wp, 1.2_wp, '1', '%', 'thermal%modulus_ratios'), &
+    range_type(1.0e-6_wp, 2.0e-3_wp, '1/K', '%/K', 'thermal%modulus_slope'), &
+    range_type(1.0e-3_wp, 1.0e2_wp, 'W/K', 'mW/K', &
                'thermal%shaft_conductance thermal%sleeve_conductance '// &
                'thermal%shaft_end_conductance'), &
     range_type(0.1_wp, 500.0_wp, 'W/(m K)', 'W/(cm K)', &
                'thermal%shaft_conductivity thermal%foil_conductivity'), &
     range_type(1.0_wp, 1.0e5_wp, 'W/(m^2 K)', 'W/(cm^2 K)', 'thermal%bump_conductance '// &
                'thermal%channel_conductance thermal%channel_sleeve_conductance'), &
-    range_type(1.0e-7_wp, 0.1_wp, 'kg/s', 'g/s', 'thermal%cooling_flow'), &
+    range_type(1.0e-6_wp, 0.02_wp, 'kg/s', 'g/s', 'thermal%cooling_flow'), &
     range_type(1.0e-7_wp, 1.0e-4_wp, '1/K', 'um/(m K)', &
                'thermal%shaft_expansion thermal%sleeve_expansion'), &
     range_type(1.0e-4_wp, 0.5_wp, 'm', 'mm,um', 'thermal%shaft_inner_radius'), &
@@ -107,7 +111,7 @@ module gfb_plausible_values
                'bump_foil%half_length bump_foil%bump_half_length bump_foil%strip_half_length'), &
     range_type(2.0e-5_wp, 1.0e-2_wp, 'm', 'mm,um', &
                'bump_foil%height bump_foil%bump_height bump_foil%strip_height'), &
-    range_type(1.0e-9_wp, 1.0e-3_wp, 'm', 'um,mm', 'bump_foil%height_deviation'), &
+    range_type(1.0e-9_wp, 1.0e-4_wp, 'm', 'um,mm', 'bump_foil%height_deviation'), &
     range_type(2.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um', &
                'bump_foil%pitch bump_foil%bump_pitch bump_foil%strip_pitch model%spring_pitch'), &
     range_type(0.0_wp, 5.0e-2_wp, 'm', 'mm,um', 'bump_foil%strip_offset'), &
@@ -121,9 +125,9 @@ module gfb_plausible_values
     range_type(0.0_wp, 1.0e9_wp, 'Pa', '', 'strip_load%pressure strip_load%bump_pressure'), &
     range_type(0.0_wp, 1.0e-2_wp, 'm', 'mm,um', 'strip_load%maximum_displacement'), &
     range_type(1.0e-6_wp, 1.0e6_wp, 'N', 'mN', 'strip_load%maximum_force'), &
-    range_type(1.0e6_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'model%foundation_stiffness '// &
+    range_type(1.0e7_wp, 1.0e12_wp, 'N/m^3', 'N/mm^3', 'model%foundation_stiffness '// &
                'model%strip_foundation_stiffness'), &
-    range_type(1.0e3_wp, 1.0e12_wp, 'N/m^2', 'N/mm^2', 'model%crest_stiffness'), &
+    range_type(1.0e5_wp, 1.0e10_wp, 'N/m^2', 'N/mm^2', 'model%crest_stiffness'), &
     range_type(1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm', 'capacity%smallest_gap'), &
     range_type(0.0_wp, 1.0e-4_wp, 'm', 'mm,um', 'solver%touch_down_gap'), &
     range_type(0.0_wp, 1.0e-2_wp, '1', '%', 'solver%residual_tolerance solver%step_tolerance'), &
@@ -133,8 +137,8 @@ module gfb_plausible_values
                'foil_damping%loss_frequency'), &
     range_type(0.0_wp, 100.0_wp, '1', '%', 'dynamics%frequency_ratios'), &
     range_type(0.0_wp, 0.5_wp, '1', '%', 'dynamics%interpolation_tolerance'), &
-    range_type(1.0_wp, 1.0e11_wp, 'N s/m^3', 'N s/mm^3', 'foil_damping%foundation_damping'), &
-    range_type(1.0e3_wp, 1.0e20_wp, 'N/m^3', 'N/mm^3', 'foil_damping%maxwell_stiffness'), &
+    range_type(1.0e2_wp, 1.0e8_wp, 'N s/m^3', 'N s/mm^3', 'foil_damping%foundation_damping'), &
+    range_type(1.0e6_wp, 1.0e13_wp, 'N/m^3', 'N/mm^3', 'foil_damping%maxwell_stiffness'), &
     range_type(1.0e-9_wp, 1.0e2_wp, 's', 'ms,us', 'foil_damping%maxwell_time'), &
     range_type(1.0e-13_wp, 1.0e-4_wp, 'm', 'um,mm', 'dynamics%vibration_amplitudes'), &
     range_type(1.0e-4_wp, 1.0e4_wp, 'kg', 'g', 'rotor%mass'), &
@@ -159,7 +163,8 @@ module gfb_plausible_values
     range_type(0.0_wp, 0.5_wp, '1', '%', 'transient%steady_tolerance'), &
     range_type(1.0e-10_wp, 2.0e-3_wp, 'm', 'um,mm', 'transient%largest_orbit'), &
     range_type(1.0e-6_wp, 10.0_wp, '1', '%', 'periodic%step'), &
-    range_type(1.0e-6_wp, 0.9_wp, '1', '%', 'periodic%first_amplitude')]
+    range_type(1.0e-6_wp, 0.9_wp, '1', '%', 'periodic%first_amplitude'), &
+    range_type(0.0_wp, 10.0_wp, '1', '', 'sample%factors')]
 
   type(reason_type), parameter, public :: reasons(*) = [ &
     reason_type('operation%load', 'judged against what films carry'), &
@@ -168,7 +173,7 @@ module gfb_plausible_values
     reason_type('model%foundation_exponent', 'from -20 to 20 by its rule'), &
     reason_type('sweep%values', 'those of what the sweep changes'), &
     reason_type('periodic%final_value', 'that of the parameter'), &
-    reason_type('sensitivity%tolerances', 'those of the parameters'), &
+    reason_type('sensitivity%tolerances', 'judged against their parameters'), &
     reason_type('contact%normal_stiffness', 'its unit follows from the exponent'), &
     reason_type('pads%preload', 'from 0 to below 1 by its rule'), &
     reason_type('pads%preload_offset', 'from 0 to 1 by its rule'), &
@@ -177,12 +182,10 @@ module gfb_plausible_values
     reason_type('bump_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%shaft_poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%carry_over', 'from 0 to 1 by its rule'), &
-    reason_type('thermal%modulus_slope', 'leaves more than 0.1 by its rule'), &
     reason_type('contact%exponent', 'bounded by its rule'), &
     reason_type('mesh%edge_refinement', 'from 1 to 100 by its rule'), &
     reason_type('accuracy%target', 'between 0 and 1 by its rule'), &
-    reason_type('sample%quantiles', 'between 0 and 1 by their rule'), &
-    reason_type('sample%factors', 'at least 1 by their rule')]
+    reason_type('sample%quantiles', 'between 0 and 1 by their rule')]
 
   type(unit_type), parameter, public :: units(*) = [ &
     unit_type('mm', 1.0e-3_wp), unit_type('um', 1.0e-6_wp), &
@@ -195,7 +198,7 @@ module gfb_plausible_values
     unit_type('mW/K', 1.0e-3_wp), unit_type('W/(cm K)', 1.0e2_wp), &
     unit_type('%', 1.0e-2_wp), unit_type('g', 1.0e-3_wp), unit_type('g/mol', 1.0e-3_wp), &
     unit_type('W/(cm^2 K)', 1.0e4_wp), &
-    unit_type('g/s', 1.0e-3_wp), unit_type('um/(m K)', 1.0e-6_wp), &
+    unit_type('g/s', 1.0e-3_wp), unit_type('um/(m K)', 1.0e-6_wp), unit_type('%/K', 1.0e-2_wp), &
     unit_type('g/cm^3', 1.0e3_wp), unit_type('g/m^3', 1.0e-3_wp), &
     unit_type('t/mm^3', 1.0e12_wp), unit_type('N/mm^3', 1.0e9_wp), unit_type('N/mm^2', 1.0e6_wp), &
     unit_type('N s/mm^3', 1.0e9_wp), unit_type('mN', 1.0e-3_wp), unit_type('mN s', 1.0e-3_wp), &
@@ -223,9 +226,41 @@ contains
       end associate
     end do
     call check_changed_values(keys, scene%sweep%parameter, scene%periodic%parameter)
+    if (scene%thermal%present) then
+      call warn_of_channel(keys, scene)
+      call warn_of_growth(keys, scene)
+      call warn_of_reference(keys, scene)
+    end if
     ! A load that is large against a wrong pressure is not wrong.
     if (keys%complaints%count + keys%warnings%count == mistakes) call check_load(keys, scene)
   end subroutine check_plausible
+
+  !> Warns of the tolerance of a parameter that is none: a deviation larger than the key itself, or
+  !> one that nothing shows.
+  subroutine check_tolerance(keys, label, value, tolerance, unit, element)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    character(len=*), intent(in) :: label !! of the parameter, `group%key`
+    real(wp), intent(in) :: value     !! the parameter's, of a list the largest [its unit]
+    real(wp), intent(in) :: tolerance !! of it [its unit]
+    character(len=*), intent(in) :: unit !! of both
+    integer, intent(in) :: element !! of `tolerances`
+    real(wp), parameter :: least = 1.0e-8_wp !! part of a key that means something [1]
+    character(len=*), parameter :: group = 'sensitivity', key = 'tolerances'
+    type(range_type) :: range
+    integer :: row
+
+    range = range_type(0.0_wp, abs(value), unit, '', '')
+    row = row_of(label)
+    if (row > 0) then
+      if (ranges(row)%unit /= 'K') range%others = ranges(row)%others
+      ! What may be zero has its size from what is usual of it.
+      if (.not. ranges(row)%low > 0.0_wp) range%high = max(abs(value), ranges(row)%high)
+    end if
+    range%low = least*range%high
+    if (is_usual(range, tolerance)) return
+    call keys%warn(group, key, 'is the standard deviation of '//label//', '//text(value)//': '// &
+                   range_words(range)//guess(range, tolerance), element)
+  end subroutine check_tolerance
 
   !> Number of a key's range; 0 where it has none.
   pure integer function row_of(key) result(row)
@@ -320,6 +355,65 @@ contains
     call keys%warn('operation', 'load', 'is '//text(loads/carried, 3)//' p_a D L; gas films '// &
                    'carry some p_a D L at most')
   end subroutine check_load
+
+  !> Warns of a cooling flow to which the top foil gives no heat.
+  subroutine warn_of_channel(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: words
+
+    associate (thermal => scene%thermal)
+      if (.not. thermal%cooling_flow > 0.0_wp .or. thermal%channel_conductance > 0.0_wp) return
+      if (thermal%top_foil == foil_given .or. keys%mistakes() > 0) return
+      words = 'is 0: cooling_flow cools the sleeve alone, not the top foil'
+      if (.not. thermal%channel_sleeve_conductance > 0.0_wp) then
+        words = 'is 0, as is channel_sleeve_conductance: cooling_flow cools nothing'
+      end if
+      call keys%warn('thermal', 'channel_conductance', words//'; without the key it is 3.5 '// &
+                     'conductivity of the gas / height in &bump_foil')
+    end associate
+  end subroutine warn_of_channel
+
+  !> Warns where one of shaft and sleeve grows, and nothing is said of the other one.
+  subroutine warn_of_growth(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    call warn_of('shaft', 'sleeve', scene%thermal%shaft_expansion)
+    call warn_of('sleeve', 'shaft', scene%thermal%sleeve_expansion)
+
+  contains
+
+    !> Warns of a wall that keeps its size.
+    subroutine warn_of(one, other, expansion)
+      character(len=*), intent(in) :: one, other !! which grows; the other one
+      real(wp), intent(in) :: expansion !! of the one [1/K]
+
+      if (.not. expansion > 0.0_wp .or. keys%holds('thermal', other//'_expansion')) return
+      call keys%warn('thermal', other//'_expansion', 'is not given: the '//other//' keeps its '// &
+                     'size while the '//one//' grows with its temperature; 0 says so')
+    end subroutine warn_of
+  end subroutine warn_of_growth
+
+  !> Warns of a machine that is not as warm as the room in which drawings hold.
+  subroutine warn_of_reference(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp), parameter :: near_room = 60.0_wp !! about `usual_temperature` [K]
+    character(len=:), allocatable :: what
+
+    associate (thermal => scene%thermal)
+      if (keys%holds('thermal', 'reference_temperature')) return
+      if (.not. abs(thermal%reference_temperature - usual_temperature) > near_room) return
+      what = ''
+      if (keys%meant('thermal', 'modulus_slope')) what = 'youngs_modulus'
+      if (max(thermal%shaft_expansion, thermal%sleeve_expansion) > 0.0_wp) what = 'clearance'
+      if (what == '') return
+      call keys%warn('thermal', 'reference_temperature', 'is not given: '//what//' counts at '// &
+                     'ambient_temperature, '//text(thermal%reference_temperature)// &
+                     ' K; that of a drawing holds at 293.15 K')
+    end associate
+  end subroutine warn_of_reference
 
   !> Warns of a ring that is hardly meant, and of a runner that would burst.
   subroutine warn_of_shape(keys, scene)

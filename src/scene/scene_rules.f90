@@ -150,11 +150,19 @@ contains
                      (thermal%bump_conductance_estimated .or. keys%holds(heat, &
                      'bump_conductance')), 'must be given: an estimate needs thickness, '// &
                      'half_length, height and pitch in &bump_foil')
-      call keys%rule(heat, 'channel_sleeve_conductance', thermal%is_cooled() .and. &
-                     keys%holds(heat, 'cooling_flow') .and. .not. &
-                     (scene%bump_foil%height%value > 0.0_wp .or. keys%holds(heat, &
-                     'channel_sleeve_conductance')), 'must be given: &bump_foil has no height')
+      if (scene%bump_foil%height%value > 0.0_wp .or. .not. thermal%is_cooled()) return
+      if (keys%holds(heat, 'cooling_flow')) call must_be_given('channel_conductance')
+      if (keys%holds(heat, 'cooling_flow')) call must_be_given('channel_sleeve_conductance')
     end associate
+
+  contains
+
+    !> A conductance of the channel has no default without the height of the bumps.
+    subroutine must_be_given(key)
+      character(len=*), intent(in) :: key
+      call keys%rule(heat, key, .not. keys%holds(heat, key), 'must be given: &bump_foil has no '// &
+                     'height')
+    end subroutine must_be_given
   end subroutine check_heated_foil
 
   !> A shaft that grows with its speed leaves a gap at rest.

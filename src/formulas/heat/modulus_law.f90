@@ -6,9 +6,13 @@ module gfb_modulus_law
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: slope_law
+  public :: slope_law, is_usual_modulus
 
   real(wp), parameter, public :: least_ratio = 0.1_wp !! at which a slope ends [1]
+
+  !> what is left of the modulus of metals below their melting points [1]
+  real(wp), parameter :: usual(2) = [0.2_wp, 1.2_wp]
+  character(len=*), parameter, public :: usual_words = '0.2 to 1.2'
 
   !> Rows of a table; none: the modulus does not change.
   type, public :: modulus_law_type
@@ -35,6 +39,12 @@ contains
     end if
     law%ratio = 1.0_wp + slope*(law%temperature - reference)
   end function slope_law
+
+  !> Whether foils have such a modulus somewhere.
+  elemental logical function is_usual_modulus(ratio) result(is_usual)
+    real(wp), intent(in) :: ratio !! over the one that is typed [1]
+    is_usual = ratio >= usual(1) .and. ratio <= usual(2)
+  end function is_usual_modulus
 
   !> Whether the modulus changes with the temperature.
   pure logical function is_given(self)

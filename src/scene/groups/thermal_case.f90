@@ -7,7 +7,8 @@ module gfb_thermal_case
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_gas_case, only: gas_case_type, usual_temperature, follow_ambient
   use gfb_heated_film, only: wall_given, wall_conductance, wall_fin
-  use gfb_modulus_law, only: modulus_law_type, slope_law, least_ratio
+  use gfb_modulus_law, only: modulus_law_type, slope_law, least_ratio, is_usual_modulus, &
+                             usual_words
   use gfb_scene_case, only: is_bearing, misplaced_group
   use gfb_text, only: text
   implicit none (type, external)
@@ -187,9 +188,13 @@ contains
       real(wp), intent(in) :: temperature !! 0: not given [K]
       real(wp) :: left
 
+      if (.not. temperature > 0.0_wp) return
       left = 1.0_wp + slope*(temperature - thermal%reference_temperature)
-      call keys%rule(group, line, temperature > 0.0_wp .and. left <= least_ratio, 'leaves '// &
-                     text(left, 3)//' of the modulus at '//name//', which must be more than 0.1')
+      call keys%rule(group, line, left <= least_ratio, 'leaves '//text(left, 3)// &
+                     ' of the modulus at '//name//', which must be more than 0.1')
+      if (left <= least_ratio .or. is_usual_modulus(left)) return
+      call keys%warn(group, line, 'makes '//text(left, 3)//' of the modulus at '//name// &
+                     '; usual is '//usual_words)
     end subroutine check_slope
   end subroutine read_modulus
 
@@ -248,34 +253,60 @@ contains
     call keys%real_key('top_foil_temperature', thermal%top_foil_temperature, 'K', 'at which '// &
                        'the top foil is held', from_to(coldest, hottest), &
                        thermal%top_foil == foil_given, "required with `top_foil = 'given'`")
+    call read_channel(keys, thermal, foil, conductivity, cooled)
     known = min(foil%thickness%value, foil%half_length%value, foil%height%value, &
                 foil%pitch%value) > 0.0_wp
+    ! The gas under a cooled foil is that of the channel.
     if (known) thermal%bump_conductance = &
-      estimated_bump_conductance(foil, thermal%foil_conductivity, conductivity, usual_contact)
+      estimated_bump_conductance(foil, thermal%foil_conductivity, &
+                                 merge(0.0_wp, conductivity, cooled), usual_contact)
     call keys%real_key('bump_conductance', thermal%bump_conductance, 'W/(m^2 K)', 'from top '// &
-                       'foil to sleeve through bumps and gas, of an area', not_negative, &
+                       'foil to sleeve through bumps and gas, of an area; beside a cooling '// &
+                       'flow through the bumps alone', not_negative, &
                        default='estimated from `&bump_foil`, to a factor of 2; else required')
     thermal%bump_conductance_estimated = known .and. (keys%key%is_default .or. &
                                                       .not. keys%key%given)
+  end subroutine read_foil
+
+  !> The channel under the foil, through which cooling gas is blown.
+  subroutine read_channel(keys, thermal, foil, conductivity, cooled)
+    type(case_keys_type), intent(inout) :: keys
+    type(thermal_case_type), intent(inout) :: thermal
+    type(bump_foil_case_type), intent(in) :: foil
+    real(wp), intent(in) :: conductivity !! of the gas [W/(m K)]
+    logical, intent(out) :: cooled !! there is a channel
+    character(len=*), parameter :: usual = '3.5 conductivity of the gas / `height` in `&bump_foil`'
+    real(wp) :: of_height !! what the channel's own size makes of it; 0: not known [W/(m^2 K)]
+
+    of_height = 0.0_wp
+    if (foil%height%value > 0.0_wp) of_height = channel_conductance_of(foil%height%value, &
+                                                                      conductivity)
     call keys%real_key('cooling_flow', thermal%cooling_flow, 'kg/s', 'of gas that is blown '// &
                        'along the bumps of this bearing, to +z, of thrust bearings '// &
                        'outwards; 0: none', not_negative)
-    call keys%real_key('channel_conductance', thermal%channel_conductance, 'W/(m^2 K)', &
-                       'from top foil to cooling gas, of an area', not_negative)
     ! A flow of zero in a sweep over it leaves the channel, where its other keys are given.
-    cooled = max(thermal%cooling_flow, thermal%channel_conductance) > 0.0_wp .or. &
-      keys%holds('thermal', 'cooling_temperature')
+    cooled = thermal%cooling_flow > 0.0_wp .or. keys%holds('thermal', 'cooling_temperature')
+    if (cooled) thermal%channel_conductance = of_height
+    call keys%real_key('channel_conductance', thermal%channel_conductance, 'W/(m^2 K)', &
+                       'from top foil to cooling gas, of an area', not_negative, default=usual)
+    cooled = cooled .or. thermal%channel_conductance > 0.0_wp
     if (cooled) thermal%cooling_temperature = thermal%ambient_temperature
     call keys%real_key('cooling_temperature', thermal%cooling_temperature, 'K', 'of that gas '// &
                        'where it enters, at -L/2 or inside', from_to(coldest, hottest), &
                        default=ambient)
-    if (cooled .and. foil%height%value > 0.0_wp) then
-      thermal%channel_sleeve_conductance = channel_nusselt*conductivity/foil%height%value
-    end if
+    if (cooled) thermal%channel_sleeve_conductance = of_height
     call keys%real_key('channel_sleeve_conductance', thermal%channel_sleeve_conductance, &
                        'W/(m^2 K)', 'from cooling gas to sleeve, of an area', not_negative, &
-                       default='3.5 conductivity of the gas / `height` in `&bump_foil`')
-  end subroutine read_foil
+                       default=usual)
+  end subroutine read_channel
+
+  !> Conductance from a wall to the flow along the bumps, laminar between plates as far apart as
+  !> they are high: 3.5 k/h_b [W/(m^2 K)].
+  elemental real(wp) function channel_conductance_of(height, gas) result(conductance)
+    real(wp), intent(in) :: height !! of the bumps, h_b [m]
+    real(wp), intent(in) :: gas !! conductivity of the gas, k [W/(m K)]
+    conductance = channel_nusselt*gas/height
+  end function channel_conductance_of
 
   !> Conductance from top foil to sleeve [W/(m^2 K)].
   !>
