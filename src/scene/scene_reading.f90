@@ -9,7 +9,7 @@ module gfb_scene_reading
   use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_plate, foil_word, &
                             coupling_partitioned
   use gfb_scene, only: scene_type, read_groups
-  use gfb_scene_case, only: analysis_equilibrium
+  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_study_cases, only: parameter_type
   use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys, every_element, named_keys
   use gfb_text, only: text
@@ -17,7 +17,7 @@ module gfb_scene_reading
   use gfb_errors, only: error_type
   use gfb_foreign_characters, only: as_utf8
   use gfb_key_book, only: key_type
-  use gfb_plausible_values, only: check_plausible
+  use gfb_plausible_values, only: check_plausible, check_tolerance
   use gfb_scene_rules, only: check_groups
   use gfb_changed_text, only: changed_text, changed_list_text
   implicit none (type, external)
@@ -166,7 +166,7 @@ contains
     case ('bore')
       if (.not. scene%bore%present) problem = 'the file has no group &bore'
     case ('operation')
-      if (key /= 'speed_rpm') problem = 'it chooses the first answer, the others follow that'
+      problem = operation_problem(scene, key)
     case ('top_foil')
       if (.not. (foils .or. plate .or. (scene%thermal%present .and. key == 'thickness'))) then
         problem = needs_foils()
@@ -174,6 +174,7 @@ contains
     case ('bump_foil')
       problem = bump_problem(scene, key, springs, computed)
       if (.not. foils .and. .not. springs) problem = needs_foils()
+      if (heat_follows(keys, scene, key)) problem = ''
     case ('contact')
       if (.not. foils) problem = needs_foils()
       if (foils .and. key == 'stick_length' .and. .not. scene%contact%may_rub) then
@@ -213,6 +214,27 @@ contains
     end function needs_foils
   end function use_problem
 
+  !> Why a key of the operating point has no effect; empty where it has one.
+  pure function operation_problem(scene, key) result(words)
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), intent(in) :: key !! of `&operation`
+    character(len=:), allocatable :: words
+    logical :: held !! the shaft is, at the position that is given
+
+    words = ''
+    held = scene%general%analysis == analysis_fixed_position
+    select case (key)
+    case ('speed_rpm')
+      return
+    case ('axial_load')
+      if (held) words = 'the gap is given'
+    case ('axial_gap')
+      if (.not. held) words = 'the search for the equilibrium starts there'
+    case default
+      words = 'it chooses the first answer, the others follow that'
+    end select
+  end function operation_problem
+
   !> Why a key of the bumps has no effect where springs stand for them; empty where it has one.
   function bump_problem(scene, key, springs, computed) result(words)
     type(scene_type), intent(in) :: scene !! what the case file asks for
@@ -229,10 +251,26 @@ contains
       words = trim(merge('crest_stiffness     ', 'foundation_stiffness', plate))// &
               ' in &model is given'
     end if
-    if (computed .and. any(key == ['height', 'width ']) .and. .not. scene%thermal%present) then
+    if (computed .and. any(key == ['height', 'width '])) then
       words = 'the stiffness by Walowit-Anno does not depend on it'
     end if
   end function bump_problem
+
+  !> Whether a default of `&thermal` follows a key of the bumps, whatever foil there is.
+  logical function heat_follows(keys, scene, key) result(follows)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+    character(len=*), intent(in) :: key !! of `&bump_foil`
+
+    follows = .false.
+    if (.not. scene%thermal%present) return
+    if (scene%thermal%bump_conductance_estimated) then
+      follows = any(key == [character(len=11) :: 'thickness', 'half_length', 'height', 'pitch'])
+    end if
+    if (key /= 'height' .or. .not. scene%thermal%is_cooled()) return
+    follows = follows .or. .not. (keys%meant('thermal', 'channel_conductance') .and. &
+                                  keys%meant('thermal', 'channel_sleeve_conductance'))
+  end function heat_follows
 
   !> Looks the keys up, notes units and values, and complains about those that no answer follows.
   subroutine check_sensitivity(keys, scene)
@@ -241,7 +279,7 @@ contains
     type(swept_key_type), allocatable :: list(:)
     character(len=:), allocatable :: problem
     real(wp) :: tolerance
-    integer :: i, k
+    integer :: i, k, before
     logical :: tolerated
 
     associate (asked => scene%sensitivity)
@@ -253,7 +291,15 @@ contains
       tolerance = 0.0_wp
       do i = 1, size(list)
         if (tolerated) tolerance = asked%tolerances(i)
+        before = size(asked%parameter)
         call add_parameter(keys, scene, list(i), tolerance, problem)
+        if (tolerated .and. size(asked%parameter) > before) then
+          associate (last => asked%parameter(size(asked%parameter)))
+            call check_tolerance(keys, list(i)%group//'%'//list(i)%name, &
+                                 maxval(abs(asked%parameter(before + 1:)%value)), tolerance, &
+                                 last%unit, i)
+          end associate
+        end if
         do k = 1, i - 1
           if (list(k)%group /= list(i)%group .or. list(k)%name /= list(i)%name) cycle
           if (list(k)%element /= list(i)%element .and. &

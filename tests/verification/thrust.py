@@ -154,17 +154,27 @@ def check_differences(checks, folder):
         scale = numpy.sqrt(stiffness[column, column]*stiffness.diagonal())
         sign = numpy.array([1.0, -1.0, -1.0]) if column == 0 else numpy.array([-1.0, 1.0, 1.0])
         checks.below(f"stiffness by differences of forces: {name}", float((numpy.abs(stiffness[:, column] - sign*rate)/scale).max()), 1.0e-6)
-    named = {"ramp%height": ("ramp", "height", 2.0e-5), "gas%viscosity": ("gas", "viscosity", VISCOSITY)}
+    named = {"ramp%height": ("ramp", "height", 2.0e-5), "gas%viscosity": ("gas", "viscosity", VISCOSITY),
+             "operation%axial_load": ("operation", "axial_load", 150.0)}
     derived = solve(folder, "derived", thrust({"axial_load": 150.0}, "equilibrium", SPRINGS, sensitivity={
         "quantity": ("axial_gap", "friction_torque", "minimum_gap"), "parameters": tuple(named)}, **TIGHT))
     for key, (group, name, value) in named.items():
         step = 1.0e-4*value
-        ahead, behind = (solve(folder, "moved", thrust({"axial_load": 150.0}, "equilibrium", SPRINGS, **TIGHT, **{
-            group: {name: value + sign*step}})) for sign in (1.0, -1.0))
+        content = thrust({"axial_load": 150.0}, "equilibrium", SPRINGS, **TIGHT)
+        ahead, behind = (solve(folder, "moved", content | {group: content[group] | {name: value + sign*step}}) for sign in (1.0, -1.0))
         for quantity in ("axial_gap", "friction_torque", "minimum_gap"):
             rate = (ahead[quantity] - behind[quantity])/(2.0*step)
             found = derived[f"d_{quantity}_d_{group}_{name}"]
             checks.below(f"{quantity} by {key} against differences", found/rate - 1.0, 1.0e-5)
+    held = {"axial_gap": 1.2e-5}
+    by_gap = solve(folder, "derived", thrust(held, model=SPRINGS, sensitivity={
+        "quantity": ("axial_force", "friction_torque"), "parameters": "operation%axial_gap"}, **TIGHT))
+    spring = coefficients(solve(folder, "coefficients", thrust(held, "linear_dynamics", SPRINGS, dynamics={"frequencies": 1.0e-3}, **TIGHT)))[0]
+    checks.below("axial force by the gap that is held: minus the stiffness", by_gap["d_axial_force_d_operation_axial_gap"]/-spring[0, 0, 0] - 1.0, 1.0e-6)
+    swept = solve(folder, "swept", thrust({"axial_load": 150.0}, "equilibrium", SPRINGS, sweep={"parameter": "axial_load", "values": (100.0, 150.0)},
+                  sensitivity={"quantity": "axial_gap", "parameters": "operation%axial_load"}, **TIGHT))
+    checks.below("a sweep of the load has the derivative of its last point", swept.history()["d_axial_gap_d_operation_axial_load"][-1]/
+                 derived["d_axial_gap_d_operation_axial_load"] - 1.0, 1.0e-7)
 
 
 def check_rotor(checks, folder):

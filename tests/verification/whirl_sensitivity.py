@@ -89,6 +89,14 @@ def check_foils(checks, folder):
     check(checks, folder, "plates that lift", plates | {"model": {"foil": "plate"}}, few | {"top_foil%thickness": 1.0e-4})
 
 
+def check_ranks(checks, folder):
+    """The same on two ranks, though stiff contacts have most of what is rounded: of keys that leave the foils alone."""
+    keys = ("gas%viscosity", "bearing%clearance", "operation%load")
+    one, two = (derived(folder, light("beam", 0.1), keys, NAMES, ranks) for ranks in (1, 2))
+    for slope in (slope_name(name, key) for name in NAMES for key in keys):
+        checks.below(f"2 ranks: {slope}", two[slope]/one[slope] - 1.0, 1.0e-8)
+
+
 def check_gaps(checks, folder):
     """Gaps of 0 against one-sided differences of second order."""
     step, bumps, bump = 1.0e-9, 13, 7
@@ -124,7 +132,7 @@ def check_sweep_and_none(checks, folder):
 
 def main():
     """Runs all checks."""
-    run_checks((check_springs, check_gaps, check_sweep_and_none), (check_foils,))
+    run_checks((check_springs, check_gaps, check_ranks, check_sweep_and_none), (check_foils,))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ module gfb_key_differences
   use gfb_study_cases, only: parameter_type
   use gfb_sweep_case, only: swept_key_type, swept_keys
   use gfb_operation_case, only: angular_speed
-  use gfb_film_surface, only: translations
+  use gfb_film_surface, only: translations, axial_coordinate
   use gfb_operating_point, only: operating_point_type
   use gfb_fixed_lines, only: fixed_line_half_flat
   implicit none (type, external)
@@ -13,7 +13,7 @@ module gfb_key_differences
   public :: difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
 
   !> part of what is changed, where little is lost to rounding [1]
-  real(wp), parameter, public :: small = 4.0e-6_wp
+  real(wp), parameter :: small = 4.0e-6_wp
 
   !> How a derivative by a key is made of differences.
   type, public :: difference_type
@@ -27,6 +27,11 @@ module gfb_key_differences
   real(wp), parameter :: central(-2:2) = [0.0_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp]
   !> exact where all is linear
   real(wp), parameter :: forward(-2:2) = [0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp]
+
+  !> Along a change of the answer: by steps that are long against what rounding leaves of stiff
+  !> contacts, or short ones, within which hardly any of them opens or closes.
+  type(difference_type), parameter, public :: by_answer(2) = [difference_type(), &
+                                                              difference_type(small, central)]
 
 contains
 
@@ -68,8 +73,16 @@ contains
 
     value = parameter%value
     if (parameter%key%group == 'operation') then
-      value = point%speed/angular_speed(1.0_wp)
-      if (parameter%key%name == 'load') value = norm2(point%load(:translations))
+      select case (parameter%key%name)
+      case ('load')
+        value = norm2(point%load(:translations))
+      case ('axial_load')
+        value = -point%load(axial_coordinate)
+      case ('axial_gap')
+        value = -point%place(axial_coordinate)
+      case default
+        value = point%speed/angular_speed(1.0_wp)
+      end select
     else if (present(at) .and. allocated(scene%sweep%keys)) then
       list = swept_keys(scene%sweep)
       do i = 1, size(list)
@@ -89,18 +102,23 @@ contains
     if (key%is_gap()) step = difference%part*scene%bearing%clearance
   end function step_of
 
-  !> Another load, the direction kept, or another speed.
+  !> Another load, the direction kept, another gap that is held, or another speed.
   pure type(operating_point_type) function changed_point(parameter, value, point) result(there)
     type(parameter_type), intent(in) :: parameter !! a key of `&operation`
     real(wp), intent(in) :: value !! of it [its unit]
     type(operating_point_type), intent(in) :: point !! of the answer
 
     there = point
-    if (parameter%key%name == 'load') then
+    select case (parameter%key%name)
+    case ('load')
       there%load(:translations) = point%load(:translations)*(value/norm2(point%load(:translations)))
-    else
+    case ('axial_load')
+      there%load(axial_coordinate) = -value
+    case ('axial_gap')
+      there%place(axial_coordinate) = -value
+    case default
       there%speed = angular_speed(value)
-    end if
+    end select
   end function changed_point
 
   !> Whether a key moves neither the film's mesh nor the crests.

@@ -298,7 +298,7 @@ contains
     if (any_rank(.not. valid)) problem = 'the film is closed at a value close by'
   end subroutine evaluate_changed
 
-  !> The same bearing at another load, the direction kept, or at another speed.
+  !> The same bearing at another load, the direction kept, at another gap that is held, or at another speed.
   subroutine evaluate_operation(parameter, value, bearing, answer, residual, number, valid)
     type(parameter_type), intent(in) :: parameter
     real(wp), intent(in) :: value !! [its unit]

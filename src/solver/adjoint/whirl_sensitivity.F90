@@ -36,7 +36,7 @@ module gfb_whirl_sensitivity
   use gfb_foil_weighing, only: give_mass
   use gfb_whirl, only: whirl_type, whirl_rates
   use gfb_corrected_solve, only: solve_corrected
-  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, small
+  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, by_answer
   implicit none (type)
   private
   public :: derive_whirl
@@ -305,6 +305,8 @@ contains
 
     value = present_value(scene, parameter, bearing%point, at)
     difference = difference_of(parameter%key)
+    ! Long steps where nothing of contacts changes, for stiff ones have most of what is rounded.
+    if (parameter%key%group /= 'contact' .and. difference%part < by_answer(1)%part) difference = by_answer(1)
     if (parameter%key%is_gap()) difference = of_gap
     step = step_of(scene, parameter%key, difference, value)
     problem = ''
@@ -408,18 +410,24 @@ contains
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
     complex(wp) :: matrix(planar, planar)
     real(wp) :: largest(1), step
-    integer :: side
+    integer :: i, side
     logical :: moved
 
     change = 0.0_wp
     problem = ''
     largest = largest_over_ranks([maxval(abs(direction/bearing%unknown_scale))])
     if (.not. largest(1) > 0.0_wp) return
-    step = small/largest(1)
-    do side = -1, 1, 2
-      call bearing%set_unknowns(form%unknown + side*step*direction)
-      if (problem == '') call evaluate_form(scene, bearing, form, matrix, problem)
-      change = change + 0.5_wp*side/step*matrix
+    do i = 1, size(by_answer)
+      change = 0.0_wp
+      problem = ''
+      step = by_answer(i)%part/largest(1)
+      do side = -2, 2
+        if (problem /= '' .or. .not. abs(by_answer(i)%weight(side)) > 0.0_wp) cycle
+        call bearing%set_unknowns(form%unknown + side*step*direction)
+        call evaluate_form(scene, bearing, form, matrix, problem)
+        change = change + by_answer(i)%weight(side)/step*matrix
+      end do
+      if (problem /= flips) exit
     end do
     call bearing%set_unknowns(form%unknown)
     call bearing%settle(bearing%state, moved)
