@@ -237,7 +237,7 @@ contains
         angle(pad%first_node + 1:pad%last_node) = pad%film%angle
       end associate
     end do
-    associate (thinnest => gap <= smallest*(1.0_wp + alike))
+    associate (thinnest => gap <= smallest + alike*abs(smallest)) ! which may be negative
       place(2:) = largest_over_ranks([maxval(angle, thinnest)])
       place(:1) = largest_over_ranks([maxval(radius, &
                                              thinnest .and. angle >= place(2) - alike)])

@@ -196,7 +196,9 @@ contains
   pure function path_lost(last) result(ending)
     character(len=*), intent(in) :: last !! what the last step has ended in
     type(ending_type) :: ending
+
     ending = ending_of(ending_lost, last)
+    if (last == '') ending = ending_of(ending_lost, 'no step leads on')
   end function path_lost
 
   !> Adds an answer.

@@ -220,7 +220,7 @@ contains
         call problem%anchor%save(bearing)
         report%shaft_fixed = .false.
       else
-        if (report%converged()) report%ending = path_lost(report%reason())
+        if (report%converged()) report%ending = path_lost('it stays by itself at none of them')
         call report%ending%add_words('fixed at '//text(number + 1)//' heights '//edge_words(bearing, pad)//' needs '// &
                                      text(least, 2)//' N or more; ', '')
       end if
@@ -255,7 +255,8 @@ contains
       side_before = side
       height(side) = height_next
       force(side) = force_next
-      report%ending = path_lost(report%reason())
+      report%ending = path_lost('no height between '//text(minval(height)*micrometres, 4)//' and '// &
+                                text(maxval(height)*micrometres, 4)//' um at which '//edge_words(problem%bearing, pad)//' stays by itself')
       if (abs(force_next) > least_fall*tried) cycle
       tried = abs(force_next)
       call release(problem, with_released_edge(problem, pad), wanted, height, report)
@@ -355,7 +356,8 @@ contains
       if (.not. report%shaft_fixed) exit
     end do
     if (report%shaft_fixed) return
-    if (report%converged() .and. number > 1) report%ending = path_lost('')
+    if (report%converged() .and. number > 1) report%ending = path_lost('with the edge fixed the shaft floats under '// &
+      text(100.0_wp*shares(number), 3)//' % of the load, not under all of it')
     if (report%converged() .and. any(problem%bearing%point%edge_hold > 0.0_wp)) then
       call release_edges(problem, report, ends)
       if (ends) call try_with_bent_edge(problem, report, ends)

@@ -3,7 +3,8 @@
 !> interference of assembly first.
 module gfb_start_list
   use gfb_kinds, only: wp
-  use gfb_ending, only: path_stopped, ending_suction, path_reached, path_touches_at, path_lost
+  use gfb_units, only: micrometres
+  use gfb_ending, only: path_stopped, ending_stopped, ending_suction, path_reached, path_touches_at, path_lost
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_operating_point, only: operating_point_type
@@ -172,12 +173,15 @@ contains
   end subroutine try_start
 
   !> The list of starts; where there is interference, from a smaller system's answer with it, or else without it first.
+  !>
+  !> Without an answer the films are left with as much interference as the state has.
   subroutine start_pressed(problem, report)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(path_report_type), intent(out) :: report !! how it ended
     real(wp) :: interference
 
     interference = problem%scene%bearing%interference
+    call set_interference(problem%bearing, interference)
     if (.not. interference > 0.0_wp .or. associated(problem%smaller)) then
       call try_starts(problem, report)
       if (.not. interference > 0.0_wp .or. report%converged() .or. problem%refused .or. problem%carried_only) return
@@ -186,8 +190,11 @@ contains
     call problem%newton%log%detail('without interference of assembly:')
     call set_interference(problem%bearing, 0.0_wp)
     call try_starts(problem, report)
-    if (report%converged()) call close_interference(problem, interference, report)
-    call set_interference(problem%bearing, interference)
+    if (report%converged()) then
+      call close_interference(problem, interference, report)
+    else if (report%ending%kind /= ending_stopped) then
+      call report%ending%add_words('without the growth and interference of '//text(interference*micrometres, 4)//' um ', '')
+    end if
   end subroutine start_pressed
 
   !> Tries the starts of the list, one after the other, until one leads to the target.

@@ -2,6 +2,8 @@
 !> Where a search for an answer begins: a fixed shaft, brought from rest to speed, and released.
 module gfb_start_position
   use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_units, only: micrometres
   use gfb_ending, only: path_reached, path_lost
   use gfb_petsc_session, only: largest_over_ranks, sum_over_ranks
   use gfb_scene, only: scene_type
@@ -47,6 +49,8 @@ contains
         report%ending = path_reached()
       else if (bearing%smallest_gap() >= settings%touch_down_gap) then
         report%ending = path_reached()
+      else
+        report%ending = path_lost('the film of the answer is thinner than '//text(settings%touch_down_gap*micrometres, 3)//' um')
       end if
     end if
     report%reached = target

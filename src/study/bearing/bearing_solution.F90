@@ -389,6 +389,10 @@ contains
     call bearing%get_unknowns(unknown)
     smallest = bearing%smallest_gap()
     place = place_of_gap(bearing, bearing%gap(unknown), smallest)
+    if (any(abs(place) > huge(place))) then ! a film that is no number anywhere
+      words = 'no film that can be measured'
+      return
+    end if
     words = 'film thinnest at theta = '//text(place(2)/degree, 4)//' deg, '// &
             trim(merge('r', 'z', bearing%pad(1)%film%surface%is_ring()))//' = '// &
             text(place(1)*1.0e3_wp, 3)//' mm: '//text(smallest*1.0e6_wp, 3)//' um'
