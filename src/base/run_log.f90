@@ -48,7 +48,7 @@ module gfb_run_log
     procedure :: is_at => run_log_is_at, is_within => run_log_is_within, waiting => run_log_waiting
     procedure :: detail => run_log_detail, heading => run_log_heading, warning => run_log_warning
     procedure :: warned => run_log_warned, repeat_warnings => run_log_repeat_warnings
-    procedure :: complaint => run_log_complaint
+    procedure :: complaint => run_log_complaint, judged => run_log_judged
   end type run_log_type
 
 contains
@@ -84,6 +84,16 @@ contains
     character(len=*), intent(in) :: words !! the line
     if (.not. self%quiet) call self%tell(words)
   end subroutine run_log_line
+
+  !> What is found of a state: a quiet log tells it where the state does not stay.
+  subroutine run_log_judged(self, words, stays)
+    class(run_log_type), intent(in) :: self !! the log
+    character(len=*), intent(in) :: words !! the line
+    logical, intent(in) :: stays !! the state is stable
+
+    if (stays) call self%line(words)
+    if (.not. stays) call self%tell(words)
+  end subroutine run_log_judged
 
   !> What is told however quiet the log is.
   subroutine run_log_tell(self, words)

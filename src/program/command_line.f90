@@ -35,7 +35,7 @@ module gfb_command_line
     logical :: results = .false. !! print the table of all names of results
     character(len=:), allocatable :: template !! analysis whose template to print; empty: none
     character(len=:), allocatable :: explain  !! key or result to explain; empty: none
-    logical :: csv = .false.     !! the history as comma-separated values, too
+    logical :: csv = .false.     !! history, motion or orbits as comma-separated values, too
     logical :: quiet = .false.   !! a line a stage and no more
     logical :: verbose = .false. !! a line per iteration
     character(len=:), allocatable :: words !! the whole line
@@ -368,7 +368,8 @@ contains
       '  --time-limit T  stop after T seconds (or M:S, or H:M:S) as by a signal'//next// &
       '  --quiet         a line a stage, with the time so far, and warnings'//next// &
       '  --verbose       a line per iteration, too'//next// &
-      '  --csv           write the history as CASE.csv, too (a sweep does anyway)'//next// &
+      '  --csv           write history, motion or orbits as CASE.csv, too (a sweep does '// &
+      'anyway)'//next// &
       '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &
       '  --name NAME     of the table of several cases; default: ensemble'//next// &

@@ -38,7 +38,7 @@ module gfb_run_context
     character(len=:), allocatable :: command !! the whole command line
     character(len=:), allocatable :: petsc_options !! that were given; not allocated: not asked
     character(len=:), allocatable :: reduction !! that the program chose, and why; empty: none
-    logical :: csv = .false.                 !! the history as comma-separated values, too
+    logical :: csv = .false.                 !! history, motion or orbits as a table, too
     logical :: resumes = .false.             !! from the scene's restart file, where there is one
     real(wp) :: start_time = 0.0_wp          !! of the run [s]
     type(run_log_type) :: log

@@ -37,17 +37,31 @@ def table_of(answer):
     return [head[1] for head in heads], [head[2] for head in heads], [[float(word or "nan") for word in row] for row in rows[1:]]
 
 
-def check_table(checks, answer, points):
-    """The same columns, units and digits as in the HDF5 file."""
+def check_table(checks, answer, points, group="history", first="converged"):
+    """The same columns, units and digits as in a group of the HDF5 file."""
     names, units, rows = table_of(answer)
     with h5py.File(f"{answer.stem}.h5") as file:
-        history = file["history"]
-        checks.that(f"{answer.stem.name}: the history's columns", set(names) == set(history))
+        history = {name: data for name, data in file[group].items() if data.ndim == 1}
+        points = points or len(history[first])
+        checks.that(f"{answer.stem.name}: the columns of {group}", set(names) == set(history))
         checks.that(f"{answer.stem.name}: units", all(history[name].attrs["unit"] == unit for name, unit in zip(names, units)))
-        checks.that(f"{answer.stem.name}: {points} points", len(rows) == points == len(history["converged"]))
+        checks.that(f"{answer.stem.name}: {points} rows", len(rows) == points == len(history[first]))
         for name, column in zip(names, zip(*rows)):
             same = all(one == other or math.isnan(one) and math.isnan(other) for one, other in zip(column, history[name][...]))
             checks.that(f"{answer.stem.name}: {name} to the last digit", same)
+
+
+def check_motions(checks, folder):
+    """A shaft over time, and orbits: with --csv the table has a row a stored time, or an orbit."""
+    springs = {"model": {"foil": "elastic_foundation", "foundation_stiffness": 4.8e9}, "rotor": {"mass": 0.3}, "unbalance": {"unbalance": 1.0e-6}}
+    for analysis, group, first, groups in (
+            ("transient", "transient", "time", {"transient": {"turns": 0.5, "steps_per_turn": 60}}),
+            ("periodic", "periodic", "period", {"periodic": {"steps_per_turn": 40, "start_turns": 1}})):
+        content = case_groups(BEARING, mesh=(24, 4), number=2.0, load=(-20.0, 0.0), groups=springs | groups)
+        content["scene"] = content.get("scene", {}) | {"analysis": analysis}
+        answer = solve(folder, analysis, content, options=("--csv",))
+        check_table(checks, answer, 0, group, first)
+        checks.that(f"{analysis}: a first column, and rows", first in table_of(answer)[0] and len(table_of(answer)[2]) >= (20 if first == "time" else 1))
 
 
 def check_heat(checks, folder):
@@ -86,6 +100,7 @@ def main():
         checks.that("no sweep: no table", not (folder/"single.csv").exists() and "point  " not in single.log)
         check_table(checks, sweep(folder, "single", None, options=("--csv",)), 1)
         check_heat(checks, folder)
+        check_motions(checks, folder)
     checks.close()
 
 

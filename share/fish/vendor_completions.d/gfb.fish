@@ -8,7 +8,7 @@ complete -c gfb -l restart -d 'resume from CASE.restart.h5, which a killed run l
 complete -c gfb -l time-limit -x -d 'stop after T seconds (or M:S, or H:M:S) as by a signal'
 complete -c gfb -l quiet -d 'a line a stage, with the time so far, and warnings'
 complete -c gfb -l verbose -d 'a line per iteration, too'
-complete -c gfb -l csv -d 'write the history as CASE.csv, too (a sweep does anyway)'
+complete -c gfb -l csv -d 'write history, motion or orbits as CASE.csv, too (a sweep does anyway)'
 complete -c gfb -l groups -x -d 'divide the ranks into N groups, and among them the points of the case\'s sweep, or several cases: CASE1.nml CASE2.nml ...'
 complete -c gfb -l name -x -d 'of the table of several cases; default: ensemble'
 complete -c gfb -l template -x -a 'equilibrium fixed_position strip modes linear_dynamics load_capacity lift_off misalignment_allowance transient periodic thrust' -d 'a case file to begin with, all keys with unit, default and meaning; A: equilibrium, fixed_position, strip, modes, linear_dynamics, load_capacity, lift_off, misalignment_allowance, transient, periodic, thrust'

@@ -5,13 +5,13 @@ module gfb_case_file
   use gfb_errors, only: error_type
   use gfb_archive, only: archive_type
   use gfb_quantity, only: quantity_type, quantity_word, quantity_number, place_of, &
-                          number_in, visit_description, are_alike
+                          number_quantity, number_in, visit_description, are_alike
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file
   use gfb_text, only: exact_text, text
   implicit none (type, external)
   private
   public :: write_case_file, write_quantities, write_history, summary_text, fill_array, &
-            add_array, history_csv, history_values, visit_rows, visit_arrays
+            add_array, table_csv, history_values, visit_rows, visit_arrays
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -23,6 +23,7 @@ module gfb_case_file
     character(len=:), allocatable :: path, unit, meaning
     real(wp), allocatable :: values(:, :) !! (columns, rows) of the file
     logical :: by_step = .false.          !! a row is a load step or sweep point
+    logical :: is_column = .false.        !! of the table of comma-separated values
     !> in the file where one rank alone has any; 0: all ranks have all
     integer :: rows = 0
     !> a row is a square matrix of that order, row by row, or, by step, several of them
@@ -79,12 +80,13 @@ contains
   end subroutine fill_array
 
   !> Puts an array at the end of a list; an array constructor would not free all that it copies.
-  subroutine add_array(list, path, unit, meaning, values, by_step, order)
+  subroutine add_array(list, path, unit, meaning, values, by_step, order, is_column)
     type(case_array_type), allocatable, intent(inout) :: list(:) !! gets it behind its own
     character(len=*), intent(in) :: path, unit, meaning !! where it goes; of the numbers; a sentence
     real(wp), intent(in) :: values(:, :) !! (columns, rows) of the file, in `unit` [SI]
     logical, intent(in), optional :: by_step !! a row is a load step or sweep point
     integer, intent(in), optional :: order !! a row is a square matrix of that order, or several
+    logical, intent(in), optional :: is_column !! of the table of comma-separated values
     type(case_array_type), allocatable :: grown(:)
     integer :: i
 
@@ -95,11 +97,13 @@ contains
       call move_alloc(list(i)%meaning, grown(i)%meaning)
       call move_alloc(list(i)%values, grown(i)%values)
       grown(i)%by_step = list(i)%by_step
+      grown(i)%is_column = list(i)%is_column
       grown(i)%rows = list(i)%rows
       grown(i)%order = list(i)%order
     end do
     call fill_array(path, unit, meaning, values, grown(size(grown)), by_step)
     if (present(order)) grown(size(grown))%order = order
+    if (present(is_column)) grown(size(grown))%is_column = is_column
     call move_alloc(grown, list)
   end subroutine add_array
 
@@ -164,34 +168,79 @@ contains
     end do
   end subroutine write_history
 
-  !> The history as comma-separated values; the first line has names and units.
-  function history_csv(history, columns) result(words)
+  !> Comma-separated values, with names and units in the first line: those of a motion or of orbits
+  !> where arrays are columns of such a table, else the history.
+  function table_csv(history, arrays, columns) result(words)
     type(history_row_type), intent(in) :: history(:) !! a row a step or point
+    type(case_array_type), intent(in) :: arrays(:) !! of the same file, on the rank that writes
     type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
     character(len=:), allocatable :: words
     type(quantity_type), allocatable :: column(:)
-    real(wp) :: value, none
-    integer :: i, row
+    real(wp), allocatable :: values(:, :)
+    integer, allocatable :: chosen(:)
+    integer :: i
 
-    none = ieee_value(none, ieee_quiet_nan)
-    call collect_columns(history, column, columns)
-    words = ''
-    do i = 1, size(column)
-      if (i > 1) words = words//','
-      words = words//column(i)%name//' ['//column(i)%unit//']'
-    end do
-    words = words//new_line('a')
-    do row = 1, size(history)
-      do i = 1, size(column)
-        if (i > 1) words = words//','
-        value = number_in(history(row)%quantity, column(i)%name, none)
-        if (ieee_is_nan(value)) cycle
-        if (column(i)%kind == quantity_number) words = words//exact_text(value)
-        if (column(i)%kind /= quantity_number) words = words//text(nint(value))
+    chosen = pack([(i, i=1, size(arrays))], [(arrays(i)%is_column, i=1, size(arrays))])
+    if (size(chosen) > 0) then
+      allocate (column(size(chosen)), values(size(chosen), size(arrays(chosen(1))%values, 2)))
+      do i = 1, size(chosen)
+        associate (one => arrays(chosen(i)))
+          column(i) = number_quantity(one%path(index(one%path, '/', back=.true.) + 1:), 0.0_wp, &
+                                      one%unit, one%meaning)
+          values(i, :) = one%values(1, :)
+        end associate
       end do
-      words = words//new_line('a')
+    else
+      call collect_columns(history, column, columns)
+      allocate (values(size(column), size(history)))
+      do i = 1, size(column)
+        values(i, :) = history_values(history, column(i)%name)
+      end do
+    end if
+    words = csv_lines(column, values)
+  end function table_csv
+
+  !> Comma-separated lines; what is no number stays empty.
+  function csv_lines(column, values) result(words)
+    type(quantity_type), intent(in) :: column(:) !! names, units and kinds
+    real(wp), intent(in) :: values(:, :) !! (columns, rows) [their units]
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: buffer, line
+    integer :: i, row, used
+
+    line = ''
+    do i = 1, size(column)
+      if (i > 1) line = line//','
+      line = line//column(i)%name//' ['//column(i)%unit//']'
     end do
-  end function history_csv
+    used = 0
+    buffer = ''
+    call put_line()
+    do row = 1, size(values, 2)
+      line = ''
+      do i = 1, size(column)
+        if (i > 1) line = line//','
+        if (ieee_is_nan(values(i, row))) cycle
+        if (column(i)%kind == quantity_number) line = line//exact_text(values(i, row))
+        if (column(i)%kind /= quantity_number) line = line//text(nint(values(i, row)))
+      end do
+      call put_line()
+    end do
+    words = buffer(:used)
+
+  contains
+
+    !> Puts the line behind the others. The room is doubled: a text that grows line by line is
+    !> copied as often.
+    subroutine put_line()
+      integer :: length
+
+      length = len(line) + 1
+      if (used + length > len(buffer)) buffer = buffer(:used)//repeat(' ', used + length)
+      buffer(used + 1:used + length) = line//new_line('a')
+      used = used + length
+    end subroutine put_line
+  end function csv_lines
 
   !> The numbers of a name, a row each; NaN where a row has none [their unit].
   function history_values(history, name) result(values)
@@ -314,6 +363,7 @@ contains
       call archive%visit('meaning', arrays(i)%meaning)
       call archive%visit_sized('values', arrays(i)%values)
       call archive%visit('by_step', arrays(i)%by_step)
+      call archive%visit('is_column', arrays(i)%is_column)
       call archive%visit('rows', arrays(i)%rows)
       call archive%visit('order', arrays(i)%order)
       if (archive%failed) return

@@ -91,8 +91,9 @@ contains
       end if
       newton%factorizations = newton%factorizations + stability%factorizations
       newton%enlargements = newton%enlargements + stability%enlargements
-      call log%line('stability: '//stability_words(stability, &
-                    bearing%pad(1)%whole%half .and. scene%model%foil == foil_shell))
+      call log%judged('stability: '//stability_words(stability, &
+                      bearing%pad(1)%whole%half .and. scene%model%foil == foil_shell), &
+                      stability%found .and. stability%negative + stability%growing == 0)
       if (stability%counted) call add_result(list, 'stability', stability%negative)
       if (stability%found) then
         call add_result(list, 'growing_modes', stability%growing)

@@ -352,7 +352,7 @@ contains
     advice = ''
     if (listed) advice = '; gfb --branches lists equilibria'
     if (number_in(judged, 'determinant_sign') < -0.5_wp) then
-      call log%line('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
+      call log%tell('stability        unstable: the determinant of the equations is negative, so some motion of shaft and '// &
                     'foils grows'//advice)
     end if
     if (place_of('edge_stiffness', judged) == 0) return

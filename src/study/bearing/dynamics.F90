@@ -6,7 +6,7 @@ module gfb_dynamics
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
   use gfb_text, only: text
-  use gfb_quantity, only: quantity_type, place_of
+  use gfb_quantity, only: quantity_type, place_of, number_in
   use gfb_result_names, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
@@ -483,7 +483,8 @@ contains
     integer :: i
 
     if (.not. answer%defined) then
-      call log%line('rotor: no growth rates, for a loss factor is defined for steady vibrations alone; '//by_mass(known, mass))
+      call log%judged('rotor: no growth rates, for a loss factor is defined for steady vibrations alone; '//by_mass(known, mass), &
+                      mass <= number_in(known, 'critical_mass', huge(mass)))
     else if (.not. answer%found) then
       call log%line('rotor: its modes were not found: '//answer%reason)
     else
@@ -495,7 +496,8 @@ contains
         end do
         call log%line(text(count(.not. listed))//' more die out in less than a turn of their own')
       end if
-      if (answer%decides > 0) call log%line('rotor: '//state_words(speed, answer%mode(answer%decides)))
+      if (answer%decides > 0) call log%judged('rotor: '//state_words(speed, answer%mode(answer%decides)), &
+                                              real(answer%mode(answer%decides)%rate, wp) <= 0.0_wp)
       if (answer%decides == 0) call log%line('rotor: none of the modes found is the rotor''s')
       if (answer%decides > 1) call log%line('less damped: '//other_words(speed, answer%mode(1)))
       if (answer%foil_grows) then

@@ -516,8 +516,8 @@ contains
       end associate
     end if
     call self%table%add(orbit)
-    call context%log%line(value_words(self%map, self%x)//': '//words_of(orbit, scene%bearing%clearance, self%loss)// &
-                          ', '//text(iterations)//' iterations')
+    call context%log%judged(value_words(self%map, self%x)//': '//words_of(orbit, scene%bearing%clearance, self%loss)// &
+                            ', '//text(iterations)//' iterations', self%loss == '')
   end function keep_orbit
 
   !> Exchanges two points.
@@ -585,7 +585,7 @@ contains
       rows = reshape([(orbit(k)%value, k=1, many)], [columns, many])
       do i = 1, columns
         call add_array(arrays, '/periodic/'//trim(names(i)), trim(units(i)), trim(meanings(i)), &
-                       rows(i:i, :))
+                       rows(i:i, :), is_column=.true.)
       end do
       call add_array(arrays, '/periodic/multipliers_real', '1', &
                      'largest Floquet multipliers, real part', &

@@ -179,7 +179,8 @@ contains
     integer :: i
 
     do i = 1, size(self%values, 1)
-      call add_array(arrays, '/transient/'//trim(names(i)), trim(units(i)), trim(meanings(i)), self%values(i:i, :self%lines))
+      call add_array(arrays, '/transient/'//trim(names(i)), trim(units(i)), trim(meanings(i)), self%values(i:i, :self%lines), &
+                     is_column=.true.)
     end do
     call add_spectra(self, arrays)
   end subroutine add_history
