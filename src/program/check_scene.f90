@@ -16,7 +16,7 @@ module gfb_check_scene
   use gfb_scene_case, only: is_bearing
   use gfb_bearing_plan, only: plan_bearing
   use gfb_foil_plan, only: plan_foil
-  use gfb_memory_check, only: check_memory
+  use gfb_study, only: study_type
   use gfb_provenance, only: version_text
   implicit none (type, external)
   private
@@ -27,21 +27,25 @@ contains
   !> Shares of a bearing, or of the foil that is alone.
   !>
   !> Fails when METIS does.
-  subroutine show_partition(scene, plan, foil_plan, ranks, log, error)
+  subroutine show_partition(scene, ranks, log, error)
     type(scene_type), intent(in) :: scene !! what is asked for
-    type(bearing_plan_type), intent(in) :: plan !! of the bearing, if it is one
-    type(foil_plan_type), intent(in) :: foil_plan !! of the foil
     integer, intent(in) :: ranks !! that share
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(bearing_plan_type) :: plan
+    type(foil_plan_type) :: foil_plan
     type(division_type) :: division
+    type(run_log_type) :: silent
     logical :: reduced
     integer :: rows
 
+    silent%active = .false.
     if (is_bearing(scene%general%analysis)) then
       reduced = scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan
+      call plan_bearing(scene, silent, plan)
       call divide_bearing(scene, film_mesh_of(scene, plan), ranks, division, error)
     else
+      call plan_foil(scene, silent, foil_plan)
       reduced = foil_plan%reduced
       rows = size(axial_rows(1.0_wp, scene%mesh%axial_elements, foil_plan%half, 1.0_wp))
       call divide(no_chain(), foil_chain(scene, rows, reduced), ranks, division, error)
@@ -78,32 +82,23 @@ contains
 
   !> Says what a scene needs, and that it is in order; how it is shared out where that is asked for.
   !>
-  !> Fails where the machine has too little memory, as the run would, and when METIS does.
-  subroutine check_scene(scene, shares, log, error)
+  !> Takes the steps of a run up to its first equation, and fails where the run would.
+  subroutine check_scene(scene, study, shares, log, error)
     type(scene_type), intent(in) :: scene !! what is asked for
+    class(study_type), intent(inout) :: study !! that it asks for
     integer, intent(in) :: shares !! ranks whose shares to show; 0: those of the job; negative: none
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(bearing_plan_type) :: plan
-    type(foil_plan_type) :: foil_plan
-    real(wp) :: memory
     integer :: ranks
 
     call log%line(version_text())
     call log%line(scene%file//': '//scene%general%title)
+    call study%prepare(scene, log)
+    call study%check(scene, error)
+    if (allocated(error)) return
     ranks = shares
     if (shares == 0) ranks = rank_count()
-    if (is_bearing(scene%general%analysis)) then
-      call plan_bearing(scene, log, plan)
-      memory = plan%memory
-    else
-      call plan_foil(scene, log, foil_plan)
-      memory = foil_plan%memory
-    end if
-    ! With &accuracy the run begins on a coarser mesh, and stops where the machine is full.
-    if (.not. scene%accuracy%present) call check_memory(scene, memory, error)
-    if (allocated(error)) return
-    if (shares >= 0) call show_partition(scene, plan, foil_plan, ranks, log, error)
+    if (shares >= 0) call show_partition(scene, ranks, log, error)
     if (allocated(error)) return
     call log%line('')
     if (scene%hints /= '') call log%tell(scene%hints)

@@ -13,7 +13,7 @@ module gfb_run_case
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
   use gfb_foil_plan, only: choose_reduction
-  use gfb_studies, only: run_scene
+  use gfb_studies, only: create_study, run_scene
   use gfb_check_scene, only: check_scene
   implicit none (type)
   private
@@ -80,7 +80,8 @@ contains
     if (allocated(error)) return
     call choose_reduction(scene)
     if (only_look) then
-      call check_scene(scene, line%shares, log, error)
+      call create_study(scene, line%branches, study, error)
+      if (.not. allocated(error)) call check_scene(scene, study, line%shares, log, error)
     else
       call run_scene(scene, line%branches, context, study, summary, error)
       if (.not. allocated(error)) converged = study%converged

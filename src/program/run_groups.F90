@@ -199,6 +199,7 @@ contains
     integer, intent(out) :: status        !! exit status of the program
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(scene_type), allocatable :: scenes(:)
+    class(study_type), allocatable :: study
     type(run_context_type) :: context
     integer :: i
 
@@ -216,7 +217,8 @@ contains
     if (allocated(error)) return
     if (line%check .or. line%shares >= 0) then
       do i = 1, size(scenes)
-        call check_scene(scenes(i), line%shares, log, error)
+        call create_study(scenes(i), line%branches, study, error)
+        if (.not. allocated(error)) call check_scene(scenes(i), study, line%shares, log, error)
         if (allocated(error)) return
       end do
       return

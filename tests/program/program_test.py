@@ -22,6 +22,7 @@ from gfb_run import (GFB, MPIEXEC, Bearing, Checks, case_text, natural_sizes, ru
                      summary_difference)
 
 BEARING = Bearing()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 GOOD = case_text(BEARING, mesh=(48, 8), number=2.0, load=(-20.0, 0.0))
 PLATE = """&scene analysis='modes' /
 &modes part='top_foil' /
@@ -127,6 +128,16 @@ def check_folders(checks, folder):
         checks.that("--output closed: refused", status == 3 and "closed" in wrong)
 
 
+def check_refusals(checks, folder):
+    """--check refuses what a run would refuse before its first equation, in the same words."""
+    ring = (ROOT/"inputs"/"thrust_shell.nml").read_text(encoding="utf-8")
+    (folder/"wide.nml").write_text(re.sub(r"outer_radius *=[^!\n]*", "outer_radius = 50.0", ring), encoding="utf-8")
+    (looked, told, refused), (status, _, wrong) = (call(*words, "wide.nml", folder=folder) for words in (["--check"], []))
+    checks.that(f"a ring of 50 m: refused by --check as by the run: {refused} {wrong}",
+                looked == status == 1 and "is in order" not in told and refused == wrong and "wide.nml: mesh of the " in wrong)
+    checks.that("and no result", not list((folder/"results").glob("**/wide*")))
+
+
 def check_quiet(checks, folder):
     """A line per iteration with --verbose alone; --quiet has a line a stage, with the time so far."""
     (folder/"good.nml").write_text(GOOD, encoding="utf-8")
@@ -142,6 +153,12 @@ def check_quiet(checks, folder):
         checks.that(f"--quiet: {stage}", any(f" s  {stage}" in line for line in lines))
     status, _, wrong = call("--quiet", "--verbose", "good.nml", folder=folder)
     checks.that("not both", status == 1 and "not both" in wrong)
+    whirls = GOOD.replace("'equilibrium'", "'linear_dynamics'") + "&dynamics frequency_ratios=0.5 / &rotor mass={} /"
+    for mass, words in ((1.0e-3, "rotor: stable"), (100.0, "rotor: unstable")):
+        (folder/"whirls.nml").write_text(whirls.format(mass), encoding="utf-8")
+        usual, quiet = (call(*words, "whirls.nml", folder=folder)[1] for words in ([], ["--quiet"]))
+        checks.that(f"{mass} kg: {words}", words in usual)
+        checks.that(f"{mass} kg: --quiet tells what does not stay, and that alone", ("rotor: " in quiet) == (words in quiet) == (mass > 1.0))
     heavy = case_text(BEARING, mesh=(48, 8), number=2.0, load=(-1.0e9, 0.0))
     (folder/"heavy.nml").write_text(heavy, encoding="utf-8")
     status, words, _ = call("--quiet", "heavy.nml", folder=folder)
@@ -396,7 +413,7 @@ def check_ranks(checks, folder):
 
 def main():
     checks = Checks()
-    for check in (check_options, check_folders, check_quiet, check_waiting, check_colours, check_warnings, check_petsc_options, check_rerun, check_kill,
+    for check in (check_options, check_folders, check_refusals, check_quiet, check_waiting, check_colours, check_warnings, check_petsc_options, check_rerun, check_kill,
                   check_hindrance, check_side_by_side, check_ranks):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder).resolve())

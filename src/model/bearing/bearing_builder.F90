@@ -6,21 +6,27 @@
 module gfb_bearing_builder
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
+  use gfb_errors, only: error_type, add_context
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: solves_one_pad
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_model_case, only: foil_shell, meshes_foils, meshes_top_foil, reduction_guyan, foil_rigid, &
                             foil_elastic_foundation, foil_beam, foil_plate
-  use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh
+  use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh, cell_nodes
   use gfb_crest_lines, only: plate_sides
-  use gfb_foil_builder, only: plate_stations, stations_follow_crests, sector_sides, shape_on_pad, gaps_beside
+  use gfb_foil_builder, only: plate_stations, stations_follow_crests, sector_sides, shape_on_pad, gaps_beside, strip_on_pad, &
+                              section_of, plate_section, middle_of_straight
+  use gfb_foil_places, only: top_height
+  use gfb_foil_mesh, only: top_mesh, dividing_stations
+  use gfb_foil_structure, only: element_geometry, element_section
+  use gfb_quad_mesh, only: quad_mesh_type
+  use gfb_shell_geometry, only: shell_section_type, check_shell
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count, any_rank
   use gfb_aligned_mesh, only: align_stations
   use gfb_bore_profile, only: bore_kinks
-  use gfb_gas_film, only: put_strips, put_bore, put_ramp, freeze_film, frozen_heat_type
+  use gfb_gas_film, only: gas_film_type, create_gas_film, put_strips, put_bore, put_ramp, freeze_film, frozen_heat_type
   use gfb_heat_switch, only: follow_frozen
   use gfb_solid_contact, only: solid_contact_type
   use gfb_changed_foil, only: take_foil_numbers
@@ -43,7 +49,7 @@ module gfb_bearing_builder
   use gfb_plate_foil, only: plate_foil_type, create_plate_foil
   implicit none (type)
   private
-  public :: build_bearing, build_opposite, build_like, build_changed, take_numbers, divide_bearing, film_mesh_of, heat_of
+  public :: check_meshes, build_bearing, build_opposite, build_like, build_changed, take_numbers, divide_bearing, film_mesh_of, heat_of
 
   !> Points of a measured bore that are nearer to both neighbours are a curve's: with sides of elements on a hundred of them a mesh
   !> of 128 elements, some half as long as the others, was three times as far from the curve's answer as an even one.
@@ -71,6 +77,76 @@ contains
     bearing%point = operating_point(scene%operation)
     call leave_stage()
   end subroutine build_bearing
+
+  !> Measures the elements of film and foils, as their equations would, and keeps nothing of them.
+  !>
+  !> Fails where one is folded over, degenerate, or too thick for its curvature.
+  subroutine check_meshes(scene, plan, error)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_plan_type), intent(in) :: plan !! what was decided about it
+    type(error_type), allocatable, intent(out) :: error !! which mesh has such an element, and why it cannot be
+    type(film_mesh_type) :: film
+
+    film = film_mesh_of(scene, plan)
+    call check_film(scene, film, error)
+    call add_context(error, scene%file//': mesh of the film')
+    if (allocated(error) .or. all(scene%model%foil /= [foil_shell, foil_plate])) return
+    call check_elements(top_mesh(film, merge(top_height(scene), 0.0_wp, scene%model%foil == foil_shell), &
+                                 middle=middle_of_straight(scene%bearing, scene%bump_foil)), plate_section(scene), error)
+    call add_context(error, scene%file//': mesh of the top foil')
+    if (allocated(error) .or. scene%model%foil /= foil_shell) return
+    associate (window => [1, maxval(dividing_stations(shape_on_pad(scene)))])
+      call check_elements(strip_on_pad(scene, film, window), section_of(scene%bump_foil), error)
+    end associate
+    call add_context(error, scene%file//': mesh of the bump foil')
+  end subroutine check_meshes
+
+  !> Elements of the film: stations and rows make a grid, so that one row and one station of it show whether any is folded.
+  subroutine check_film(scene, film, error)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    type(error_type), allocatable, intent(out) :: error
+    type(film_mesh_type) :: strip
+
+    strip = film
+    strip%row_axial = film%row_axial(:film%order + 1)
+    call measure(strip)
+    if (allocated(error)) return
+    strip = film
+    strip%periodic = .false.
+    strip%station_angle = film%station_angle(:film%order + 1)
+    call measure(strip)
+
+  contains
+
+    !> Measures all elements of a part of the film.
+    subroutine measure(part)
+      type(film_mesh_type), intent(in) :: part
+      type(gas_film_type) :: gas
+      integer :: cells(4, part%circumferential()*part%axial()), column, row
+
+      do column = 1, part%circumferential()
+        do row = 1, part%axial()
+          cells(:, (column - 1)*part%axial() + row) = cell_nodes(column, row, part%stations(), part%rows())
+        end do
+      end do
+      call create_gas_film(part, [(row, row=1, part%nodes())], cells, scene%bearing%clearance, scene%gas%ambient_pressure, &
+                           scene%gas%viscosity, .false., gas, error)
+    end subroutine measure
+  end subroutine check_film
+
+  !> Elements of a foil.
+  pure subroutine check_elements(mesh, section, error)
+    type(quad_mesh_type), intent(in) :: mesh
+    type(shell_section_type), intent(in) :: section !! thickness and material
+    type(error_type), allocatable, intent(out) :: error
+    integer :: element
+
+    do element = lbound(mesh%element_nodes, 2), ubound(mesh%element_nodes, 2)
+      call check_shell(element_geometry(mesh, element), element_section(mesh, section, element), error)
+      if (allocated(error)) return
+    end do
+  end subroutine check_elements
 
   !> Films that are as warm as the gas that is drawn in.
   pure subroutine freeze_at_ambient(heat, bearing)

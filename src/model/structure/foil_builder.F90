@@ -24,7 +24,8 @@ module gfb_foil_builder
   implicit none (type)
   private
   public :: build_top, build_bumps, strip_shape, shape_on_pad, sector_sides, stations_follow_crests, section_of, plate_section, &
-            plate_stations, keep_elements, gaps_beside, find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge
+            plate_stations, keep_elements, gaps_beside, find_symmetry_supports, strip_on_pad, cut_strip_mesh, kinds_of_pieces, plate_fixed_edge, &
+            middle_of_straight
 
   integer, parameter :: tangential = 1            !! component of a displacement
   integer, parameter, public :: axial = 3         !! another

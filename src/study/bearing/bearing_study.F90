@@ -17,6 +17,8 @@ module gfb_bearing_study
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
   use gfb_bearing_answer, only: bearing_answer
   use gfb_bearing_plan, only: plan_bearing
+  use gfb_memory_check, only: check_memory
+  use gfb_bearing_builder, only: check_meshes
   use gfb_bearing_record, only: analysis_name
   use gfb_dynamics_record, only: coefficients_of
   use gfb_bearing_summary, only: cost_type, answer_quantities
@@ -32,7 +34,7 @@ module gfb_bearing_study
     type(bearing_plan_type) :: plan
     type(bearing_solution_type) :: solution
   contains
-    procedure :: prepare => prepare_bearing, solve => solve_study, find_answers
+    procedure :: prepare => prepare_bearing, check => check_bearing, solve => solve_study, find_answers
     procedure :: first_point   !! number of the sweep's value with which it begins; 0: the scene's own point
     procedure :: record_first  !! what follows the search for the first answer
     procedure :: continue => end_at_first !! the answers that follow
@@ -51,6 +53,18 @@ contains
     call plan_bearing(scene, log, self%plan)
     self%memory = self%plan%memory
   end subroutine prepare_bearing
+
+  !> Checks, after `prepare`, whether the study can be done.
+  !>
+  !> Fails where the machine has too little memory, and where an element of its meshes cannot be.
+  subroutine check_bearing(self, scene, error)
+    class(bearing_study_type), intent(in) :: self !! the study
+    type(scene_type), intent(in) :: scene !! that is asked for
+    type(error_type), allocatable, intent(out) :: error !! what is lacking
+
+    call check_memory(scene, self%memory, error)
+    if (.not. allocated(error)) call check_meshes(scene, self%plan, error)
+  end subroutine check_bearing
 
   !> Finds all answers.
   !>

@@ -52,7 +52,8 @@ module gfb_sample
     class(study_type), allocatable, private :: plan !! of the scene's own draw
     type(table_member_type), allocatable :: member(:)
   contains
-    procedure :: prepare => prepare_sample, solve => solve_all, solve_member, judge
+    procedure :: prepare => prepare_sample, check => check_sample, solve => solve_all
+    procedure :: solve_member, judge
     procedure :: write => write_study, left_out => left_out_of_members, discard => discard_sample
   end type sample_type
 
@@ -283,6 +284,16 @@ contains
     end associate
     allocate (self%member(scene%sample%count))
   end subroutine prepare_sample
+
+  !> Checks, after `prepare`, whether the scene can be done.
+  !>
+  !> Fails where the study of a member fails.
+  subroutine check_sample(self, scene, error)
+    class(sample_type), intent(in) :: self !! the study
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(error_type), allocatable, intent(out) :: error !! what is lacking
+    call self%plan%check(scene, error)
+  end subroutine check_sample
 
   !> Finds the answers of all members.
   subroutine solve_all(self, scene, context, error)
