@@ -56,6 +56,7 @@ module gfb_beam_foil
     integer, allocatable :: bump_number(:, :) !! the same of the bump strip's
   contains
     procedure :: add_mass => add_beam_mass
+    procedure :: moves_against_mirror => beam_moves_against_mirror
     procedure :: natural_numbers => beam_natural_numbers
     procedure :: surfaces => beam_surfaces
     procedure :: own_unknown => beam_own_unknown
@@ -140,6 +141,12 @@ contains
     type(quad_mesh_type), intent(in) :: mesh !! of one of the foils
     width = line_length(mesh, [1, mesh%rows])
   end function width_of
+
+  !> Beams feel the mean pressure across the width, which is none then.
+  pure logical function beam_moves_against_mirror(self) result(moves)
+    class(beam_foil_type), intent(in) :: self !! the beam foil
+    moves = .false.
+  end function beam_moves_against_mirror
 
   !> The foil's own numbers: the first rank has all of them.
   function beam_natural_numbers(self) result(number)

@@ -48,7 +48,7 @@ module gfb_foil_model
     procedure :: create_coarse_motions, add_mass, natural_numbers, surfaces, own_unknown, motions, nodal_contacts, sizes
     procedure :: destroy, place, local_unknowns, own_part, deflection, has_contacts, settle
     procedure :: begin_step, settle_at, commit, add_springs, put_damping, softest, crest_lengths
-    procedure :: next_contact_change, add_penetration_rates, line_forces
+    procedure :: next_contact_change, add_penetration_rates, line_forces, moves_against_mirror
   end type foil_model_type
 
 contains
@@ -120,6 +120,14 @@ contains
     class(foil_model_type), intent(in) :: self !! the foil
     meshed = .false.
   end function is_meshed
+
+  !> Whether unknowns of the foil move where the pressures of one half of the width change against those of the other: not
+  !> springs that have none, and not what feels the mean pressure across the width. On half the width such a motion has
+  !> supports of its own at z = 0, so it takes a foil of its own.
+  pure logical function moves_against_mirror(self) result(moves)
+    class(foil_model_type), intent(in) :: self !! the foil
+    moves = .false.
+  end function moves_against_mirror
 
   !> The coarse space of an iterative solver, in the foil's own numbers and scaled unknowns; says whether there is one.
   subroutine create_coarse_motions(self, motions, has)

@@ -38,6 +38,7 @@ module gfb_meshed_foil
     procedure :: add_load_rates => meshed_load_rates
     procedure :: estimate => meshed_estimate
     procedure :: is_meshed => meshed_is_meshed
+    procedure :: moves_against_mirror => meshed_moves_against_mirror
     procedure :: motions => meshed_motions
     procedure :: add_modulus_rates => meshed_modulus_rates
     procedure :: free_matrix
@@ -300,6 +301,12 @@ contains
     class(meshed_foil_type), intent(in) :: self !! the foil
     meshed = .true.
   end function meshed_is_meshed
+
+  !> Foils with meshes across the width move with the pressures there.
+  pure logical function meshed_moves_against_mirror(self) result(moves)
+    class(meshed_foil_type), intent(in) :: self !! the foil
+    moves = .true.
+  end function meshed_moves_against_mirror
 
   !> Displacements and stresses of both foils.
   function meshed_motions(self, unknown, modulus) result(list)

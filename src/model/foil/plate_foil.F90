@@ -144,7 +144,7 @@ contains
       associate (one => spring(i))
         kept = pack([(k, k=1, size(one%node))], one%share > round_off)
         if (.not. foil%top%owns(one%node(kept(1)))) cycle
-        if (all(number(radial, 4*(i - 1) + kept) == 0)) cycle ! at the fixed edge
+        if (all(number(:, 4*(i - 1) + kept) == 0)) cycle ! at the fixed edge
         found = found + 1
         point(found) = bump_contact(contact_top, one%node(kept(1)), one%line, one%length)
         point(found)%strip = one%strip

@@ -11,7 +11,7 @@
 !> damps.
 !>
 !> On half the width translations have the symmetry of the steady state, tilts
-!> the opposite one: their pressures vanish at z = 0, and foils that feel the mean pressure stay. Shells
+!> the opposite one: their pressures vanish at z = 0, and foils that feel the mean pressure stay. Shells and plates
 !> move against their mirror then: they are a bearing of their own, with other supports at z = 0.
 !>
 !> What motions of the shaft are felt by, and what they move, given their symmetry about z = 0.
@@ -129,7 +129,8 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     type(vibration_type), intent(in) :: vibration !! of the foil
     type(dynamic_response_type), intent(out) :: response !! to vibrations of the shaft
-    !> the bearing of tilts, where shells are solved on half the width; it moves into the response
+    !> the bearing of tilts, where foils on half the width move with them: without it tilts are not answered; it moves
+    !> into the response
     type(bearing_system_type), allocatable, optional, intent(inout) :: opposite
     PetscErrorCode :: ierr
 
@@ -274,10 +275,13 @@ contains
   subroutine create_parts(bearing, response)
     type(bearing_system_type), intent(in) :: bearing
     type(dynamic_response_type), intent(inout) :: response
-    integer :: i
+    integer :: i, parts
 
-    allocate (response%part(merge(2, 1, bearing%pad(1)%whole%half .and. .not. bearing%pad(1)%whole%opposite .and. &
-                                  .not. allocated(response%opposite))))
+    parts = 1
+    associate (pad => bearing%pad(1))
+      if (pad%whole%half .and. .not. pad%whole%opposite .and. .not. pad%foil%moves_against_mirror()) parts = 2
+    end associate
+    allocate (response%part(parts))
     associate (part => response%part, whole => bearing%pad(1)%whole, steady => response%equations%steady)
       if (whole%opposite) then
         call create_part(bearing, steady, tilts, .true., part(1))
@@ -358,7 +362,12 @@ contains
       if (.not. found) return
     end do
     if (bearing%pad(1)%whole%repeats > 1) call add_turned_pads(bearing%pad(1)%whole%repeats, coefficient)
-    if (.not. allocated(response%opposite) .or. wanted < size(response%motion)) return
+    if (wanted < size(response%motion)) return
+    if (.not. allocated(response%opposite)) then
+      found = any([(response%part(i)%coordinate == wanted, i=1, size(response%part))])
+      if (.not. found) error stop 'tilts on half the width are asked of a response without the bearing that they move'
+      return
+    end if
     associate (opposite => response%opposite)
       call find_coefficients(response%opposite_bearing, opposite, rate, other, found)
       coefficient(tilts, tilts) = other(tilts, tilts)

@@ -10,7 +10,6 @@ module gfb_answer_judgement
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_shell
   use gfb_study_cases, only: quantity_words, parameter_type, quantities_of_whirl, derives_whirl
   use gfb_sweep_case, only: swept_key_type
   use gfb_bearing_system, only: bearing_system_type, free_equations
@@ -92,7 +91,7 @@ contains
       newton%factorizations = newton%factorizations + stability%factorizations
       newton%enlargements = newton%enlargements + stability%enlargements
       call log%judged('stability: '//stability_words(stability, &
-                      bearing%pad(1)%whole%half .and. scene%model%foil == foil_shell), &
+                      bearing%pad(1)%whole%half .and. bearing%pad(1)%foil%moves_against_mirror()), &
                       stability%found .and. stability%negative + stability%growing == 0)
       if (stability%counted) call add_result(list, 'stability', stability%negative)
       if (stability%found) then

@@ -10,7 +10,7 @@ module gfb_dynamics
   use gfb_result_names, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_shell, meshes_foils
+  use gfb_model_case, only: meshes_foils
   use gfb_motion_cases, only: tangent_stick, frequencies_at
   use gfb_film_surface, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type, free_equations
@@ -315,7 +315,7 @@ contains
     end associate
   end function rotor_of
 
-  !> The bearing linearised at its answer, with that of tilts where shells are solved on half the width.
+  !> The bearing linearised at its answer, with that of tilts where half the width is solved and their foil is another.
   subroutine start_response(scene, bearing, response, problem)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
@@ -324,7 +324,7 @@ contains
     type(bearing_system_type), allocatable :: opposite
     type(error_type), allocatable :: error
 
-    if (scene%model%foil == foil_shell .and. bearing%pad(1)%whole%half) then
+    if (bearing%pad(1)%whole%half .and. bearing%pad(1)%foil%moves_against_mirror()) then
       allocate (opposite)
       call build_opposite(scene, bearing, opposite, error)
       if (allocated(error)) then
