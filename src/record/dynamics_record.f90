@@ -16,13 +16,13 @@ module gfb_dynamics_record
             coefficients_of, motion_names
 
   !> Of a mode: frequency [rad/s], growth [1/s], damping ratio, rotor's share, kind, sense, foil's
-  !> share [1].
-  integer, parameter, public :: mode_numbers = 7
+  !> share, rotor's share of what moves, whose it is [1].
+  integer, parameter, public :: mode_numbers = 9
   character(len=*), parameter :: mode_names(mode_numbers) = &
     [character(len=13) :: 'frequency', 'growth_rate', 'damping_ratio', 'shaft_share', 'kind', &
-                          'sense', 'foil_share']
+                          'sense', 'foil_share', 'moving_share', 'owner']
   character(len=*), parameter :: mode_units(mode_numbers) = &
-    [character(len=5) :: 'rad/s', '1/s', '1', '1', '1', '1', '1']
+    [character(len=5) :: 'rad/s', '1/s', '1', '1', '1', '1', '1', '1', '1']
   character(len=*), parameter :: mode_meanings(mode_numbers) = [character(len=120) :: &
     'circular frequency of the modes of film, foil and rotor, growth falling', &
     'growth of the amplitude, exp(growth t); negative: the mode dies out', &
@@ -31,7 +31,11 @@ module gfb_dynamics_record
     '0.02: of film or foil', &
     '1: cylindrical, both bearings move alike; 2: conical, the rotor turns about its centre', &
     '1: a circle with the speed, -1: a circle against it, 0: to and fro', &
-    'share of the foil''s strain and kinetic energy, against rotor and film']
+    'share of the foil''s strain and kinetic energy, against rotor and film', &
+    'share of the rotor in what moves, rotor and foil: its participation, without losses that '// &
+    'of kinetic energy', &
+    'whose the mode is: 1 the rotor''s, 2 the foil''s, 3 the film''s, 4 both the rotor''s and '// &
+    'the foil''s']
 
   !> Stiffness and damping.
   character(len=*), parameter :: kinds(2) = [character(len=9) :: 'stiffness', 'damping']
@@ -371,6 +375,8 @@ contains
     call archive%visit_sized('coefficient', parts)
     call archive%visit_sized('mode', point%mode)
     if (archive%saves .or. archive%failed) return
+    if (allocated(point%mode)) call archive%require(any(size(point%mode, 1) == [0, mode_numbers]), &
+                                                    'the numbers of a mode')
     entries = size(parts, 1)/2
     motions = nint(sqrt(real(entries, wp)))
     point%coefficient = reshape(cmplx(parts(:entries, :), parts(entries + 1:, :), wp), &

@@ -429,6 +429,10 @@ class RotorTest(unittest.TestCase):
         path = self.sweep("a.h5", "speed_rpm", (3000.0, 4000.0, 5000.0), "load = -10.0, 0.0", rows)
         with h5py.File(path, "r+") as file:
             file["dynamics/mode_foil_share"] = numpy.where(file["dynamics/mode_shaft_share"][...] < 0.5, 0.9, 0.01)
+            owners = file["dynamics/mode_shaft_share"][...] > 0.5
+            self.assertTrue((plot_rotor.of_rotor(plot_rotor.read_modes(file["dynamics"])) == owners).all())
+            file["dynamics/mode_shaft_share"][...] = 0.5  # the owner is what counts where it is told
+            file["dynamics/mode_owner"] = numpy.where(owners, plot_rotor.ROTOR, plot_rotor.FOIL).astype(float)
             above, _ = plot_rotor.draw([path], [file], "campbell").axes
         ways = [tuple(2.0*numpy.pi*line.get_ydata()) for line in above.lines if line.get_label().startswith("_") and line.get_marker() == "None"]
         self.assertEqual([numpy.round(way, 9).tolist() for way in ways if len(way) == 3], [[40.0, 45.0, 50.0], [90.0, 92.0, 94.0]])

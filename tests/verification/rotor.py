@@ -284,6 +284,54 @@ def check_foil_mass(checks, folder):
     checks.below("it is next to the foil's alone, of 135.4 Hz", modes["frequency"][0]/(2.0*math.pi*135.4) - 1.0, 0.02)
 
 
+def branch_of(folder, name, content):
+    """Growth and frequency of the rotor's branch along a sweep of its mass, and the modes that vibrate of every point."""
+    with h5py.File(f"{solve(folder, name, content).stem}.h5", "r") as file:
+        modes = {key: file[f"dynamics/mode_{key}"][...] for key in ("growth_rate", "frequency", "moving_share", "owner")}
+        return file["history/growth_rate"][...], file["history/whirl_frequency"][...], modes
+
+
+def check_crossing(checks, folder):
+    """As the rotor's mass grows its frequency passes that of a foil: far from its onset the foil's mode, damped less, is never taken
+    for the rotor's; near it both veer, and the branch goes on from the one to the other without a jump."""
+    masses = {20000.0: (0.08, 0.12, 0.16), 25000.0: tuple(0.1225 + 0.0025*i for i in range(7))}
+    found = {}
+    for speed, values in masses.items():
+        for foil_mass in ("on", "off"):
+            content = compressor(foil_mass)
+            content["operation"]["speed_rpm"] = speed
+            content["mesh"] = {"circumferential_elements": 48, "axial_elements": 4}
+            content["sweep"] = {"parameter": "rotor%mass", "values": values}
+            found[speed, foil_mass] = branch_of(folder, "crossing", content)
+        (growth, frequency, modes), (plain, unhurried, _) = (found[speed, foil_mass] for foil_mass in ("on", "off"))
+        omega = speed*math.pi/30.0
+        foil = numpy.where(modes["owner"] == 2, modes["growth_rate"], -numpy.inf).max(axis=1)
+        checks.that(f"{speed:.0f} rpm: a mode of the foil is damped less than the rotor's somewhere", (foil > growth).any())
+        # A foil's mode would be off by 0.08; where both veer they exchange 0.005.
+        checks.below(f"{speed:.0f} rpm: growth over the speed, as without the foil's mass", numpy.abs(growth - plain).max()/omega, 1.0e-2)
+        checks.below(f"{speed:.0f} rpm: frequency over the speed, as without the foil's mass", numpy.abs(frequency - unhurried).max()/omega, 2.0e-2)
+    steps = numpy.diff(growth), numpy.diff(plain)
+    checks.within("growth where they veer: largest step between neighbours over that without the foil's mass",
+                  numpy.abs(steps[0]).max()/numpy.abs(steps[1]).max(), 0.5, 3.0)
+    both = modes["owner"] == 4
+    pairs = [modes["moving_share"][point][both[point]] for point in range(len(both)) if both[point].sum() == 2]
+    checks.that("two modes that veer are named as both the rotor's and the foil's", len(pairs) > 0)
+    checks.below("their shares make one", max(abs(sum(pair) - 1.0) for pair in pairs), 0.15)
+
+
+def check_lost_modes(checks, folder):
+    """Modes next to a foil's are found, and the rotor's is the rotor's, though the foil's is damped less and has some of it."""
+    content = compressor("on")
+    content["mesh"] = {}
+    content["operation"]["speed_rpm"] = 15300.0
+    content["sweep"]["values"] = (15300.0, 15500.0)
+    growth, frequency, modes = branch_of(folder, "lost", content)
+    checks.within("15,500 rpm: growth", growth[-1], -6.4, -6.1)
+    checks.within("15,500 rpm: whirl", frequency[-1], 597.0, 601.0)
+    foil = (modes["owner"] == 2) & (modes["growth_rate"] > growth[:, None])
+    checks.that("a mode of the foil is damped less at each of the speeds", foil.any(axis=1).all())
+
+
 def check_foil_peak(checks, folder):
     """Frequencies that are put between two given find the peak of the foil's mode, which is 0.7 rad/s wide: lines are what is solved."""
     content = compressor("on")
@@ -328,6 +376,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         if "--long" not in sys.argv:
             check_foil_peak(checks, folder)
+            check_lost_modes(checks, folder)
+            check_crossing(checks, folder)
             check_onset_with_losses(checks, folder)
             checks.close()
         check_foil_mass(checks, folder)

@@ -388,7 +388,7 @@ contains
   end subroutine take_over_counts
 
   !> Z of a part's motions and its derivative by \( \lambda \), with one factorization.
-  subroutine find_sample(bearing, response, number, rate, value, slope, found)
+  subroutine find_sample(bearing, response, number, rate, value, slope, found, without_mass)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
     integer, intent(in) :: number !! of its part
@@ -396,6 +396,7 @@ contains
     complex(wp), intent(out) :: value(:, :) !! (force, motion) Z of the part's coordinates [SI]
     complex(wp), intent(out) :: slope(:, :) !! its derivative [SI]
     logical, intent(out) :: found !! else the matrix cannot be factorized
+    logical, intent(in), optional :: without_mass !! the derivative lacks the foil's; default: it has it
     complex(wp), dimension(size(response%motion), size(response%motion)) :: z, dz
 
     z = 0.0_wp
@@ -403,7 +404,7 @@ contains
     call combine(response%equations, rate)
     call factor_part(response, number, found)
     if (.not. found) return
-    call combine_rate(response%equations, rate)
+    call combine_rate(response%equations, rate, without_mass)
     associate (part => response%part(number))
       call solve_part(bearing, response, rate, size(response%motion), part, z, found, dz)
       if (bearing%pad(1)%whole%repeats > 1) then

@@ -183,18 +183,22 @@ contains
   end subroutine combine
 
   !> The derivative of that matrix by \( \lambda \), in its place.
-  subroutine combine_rate(equations, rate)
+  subroutine combine_rate(equations, rate, without_mass)
     type(vibration_equations_type), intent(in) :: equations !! complete ones
     complex(wp), intent(in) :: rate !! lambda [1/s]
+    logical, intent(in), optional :: without_mass !! the foil's share is left out; default: it is not
     type(weights_type) :: rates
     PetscErrorCode :: ierr
+    logical :: weighs
 
     rates = weight_rates_at(equations%vibration, rate)
     PetscCallA(MatZeroEntries(equations%real_part, ierr))
     PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
     call add_multiple(equations, rates%squeeze, equations%squeeze)
-    call add_inertia(equations%inertia, rate, weights_at(equations%vibration, rate), equations%real_part, &
-                     equations%imaginary_part, rates)
+    weighs = .true.
+    if (present(without_mass)) weighs = .not. without_mass
+    if (weighs) call add_inertia(equations%inertia, rate, weights_at(equations%vibration, rate), equations%real_part, &
+                                 equations%imaginary_part, rates)
     call add_losses(equations, rates)
   end subroutine combine_rate
 

@@ -16,7 +16,8 @@ module gfb_rotor
   use gfb_film_surface, only: journal_motions
   implicit none (type, external)
   private
-  public :: has_conical, kinds_of, motion_of, inertia_of, gyration_of, dynamic_matrix, determinant, inverse, whirl_sense
+  public :: has_conical, kinds_of, motion_of, inertia_of, gyration_of, dynamic_matrix, planar_part, inertia_rate, determinant, &
+            inverse, whirl_sense
 
   integer, parameter, public :: cylindrical = 1, conical = 2 !! kinds of motion
   integer, parameter, public :: planar = 2 !! coordinates of each
@@ -94,8 +95,22 @@ contains
     complex(wp), intent(in) :: rate !! lambda [1/s]
     real(wp), intent(in) :: speed   !! of the rotor [rad/s]
     complex(wp) :: matrix(planar, planar)
-    real(wp) :: motion(journal_motions, planar)
     integer :: i
+
+    matrix = planar_part(rotor, kind, coefficient)
+    matrix = matrix + rate*gyration_of(rotor, kind, speed)
+    do i = 1, planar
+      matrix(i, i) = matrix(i, i) + rate**2*inertia_of(rotor, kind)
+    end do
+  end function dynamic_matrix
+
+  !> What coefficients of a bearing are for the rotor's coordinates, \( T^T Z T \).
+  pure function planar_part(rotor, kind, coefficient) result(matrix)
+    type(rotor_type), intent(in) :: rotor !! with its bearings' distance
+    integer, intent(in) :: kind !! `cylindrical` or `conical`
+    complex(wp), intent(in) :: coefficient(journal_motions, journal_motions) !! Z of one bearing, or a derivative [SI]
+    complex(wp) :: matrix(planar, planar)
+    real(wp) :: motion(journal_motions, planar)
 
     if (kind == cylindrical) then
       matrix = coefficient(:planar, :planar) ! tilts may be unknown
@@ -103,11 +118,22 @@ contains
       motion = motion_of(rotor, kind)
       matrix = matmul(transpose(motion), matmul(coefficient, motion))
     end if
-    matrix = matrix + rate*gyration_of(rotor, kind, speed)
+  end function planar_part
+
+  !> The derivative of \( \lambda^2 M + \lambda \Omega G \) by \( \lambda \).
+  pure function inertia_rate(rotor, kind, rate, speed) result(matrix)
+    type(rotor_type), intent(in) :: rotor !! with mass and inertias
+    integer, intent(in) :: kind !! `cylindrical` or `conical`
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    real(wp), intent(in) :: speed   !! of the rotor [rad/s]
+    complex(wp) :: matrix(planar, planar)
+    integer :: i
+
+    matrix = gyration_of(rotor, kind, speed)
     do i = 1, planar
-      matrix(i, i) = matrix(i, i) + rate**2*inertia_of(rotor, kind)
+      matrix(i, i) = matrix(i, i) + 2.0_wp*rate*inertia_of(rotor, kind)
     end do
-  end function dynamic_matrix
+  end function inertia_rate
 
   !> Inverse of a 2 x 2 matrix.
   pure function inverse(matrix)

@@ -48,12 +48,14 @@ module gfb_rotor_modes
   use gfb_complex_factors, only: log_determinant
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure
   use gfb_rotor, only: rotor_type, cylindrical, dynamic_matrix, determinant, kinds_of, whirl_sense
+  use gfb_mode_owner, only: of_rotor, owner_of, is_of_shaft, find_branches, least_share
   use gfb_text, only: text
-  use gfb_rotor_pencil, only: pencil_mode_type, relaxation_type, find_pencil_modes, has_pencil, skip_inner_modes, relaxation_of
+  use gfb_rotor_pencil, only: pencil_mode_type, relaxation_type, find_pencil_modes, find_moving_share, has_pencil, &
+                              skip_inner_modes, relaxation_of
   use gfb_vibration_equations, only: vibration_type
   implicit none (type, external)
   private
-  public :: find_determinant, solve_mode, find_rotor_modes, find_axial_mode, find_all_modes, is_of_shaft, is_of_foil
+  public :: find_determinant, solve_mode, find_rotor_modes, find_axial_mode, find_all_modes
 
   integer, parameter :: first_steps = 16 !! of the half circle
   !> Of the phase; five times as much would not be seen.
@@ -86,8 +88,6 @@ module gfb_rotor_modes
   real(wp), parameter :: shift = 0.5_wp        !! next to which modes are looked for, over the speed [1]
   real(wp), parameter :: highest = 1.5_wp      !! frequency of a mode that is told, over the speed [1]
   real(wp), parameter :: room = 1.3_wp         !! of the largest circle over the least [1]
-  !> Of the rotor in a mode of its own: those of foils have some thousandths, the rotor's a tenth and more [1].
-  real(wp), parameter :: least_share = 0.02_wp
   real(wp), parameter :: most_damped = 0.5_wp  !! damping ratio of a mode that is followed [1]
   integer, parameter :: damper_steps = 8       !! in which dampers are let grow
   integer, parameter :: first_wanted = 12      !! eigenvalues next to the shift
@@ -100,6 +100,8 @@ module gfb_rotor_modes
     real(wp) :: share = 0.0_wp      !! of the rotor, against the film and the foil [1]
     real(wp) :: sense = 0.0_wp      !! 1: a circle with the speed, -1: against it [1]
     real(wp) :: foil_share = 0.0_wp !! of the foil's energy, against rotor and film [1]
+    real(wp) :: moving_share = 1.0_wp !! of the rotor in what moves, rotor and foil [1]
+    integer :: owner = of_rotor     !! whose it is, see `gfb_mode_owner`
   end type rotor_mode_type
 
   !> What was found.
@@ -315,6 +317,11 @@ contains
       if (steepens .and. i == 1) slope = log(exp(at_film - film))/(here - before)
       at_here = exp(at_here - others_at(here) - reference - slope*(here - rate))
       if (abs(at_here - at_before) <= 0.0_wp) exit
+      ! Next to a mode of the foil, whose determinant is divided out, round-off decides before moves do.
+      if (last_move <= rounded*abs(here) .and. abs(at_here) >= abs(at_before)) then
+        rate = here
+        return
+      end if
       move = -at_here*(here - before)/(at_here - at_before)
       before = here
       at_before = at_here
@@ -373,24 +380,10 @@ contains
     response%equations%vibration = whole
     if (.not. answer%found) return
     call sort_modes(answer%mode)
-    answer%foil_grows = any(.not. is_of_shaft(answer%mode) .and. real(answer%mode%rate) > rounded*abs(answer%mode%rate))
-    answer%decides = findloc(is_of_shaft(answer%mode), .true., 1)
+    answer%foil_grows = any(.not. is_of_shaft(answer%mode%owner) .and. real(answer%mode%rate) > rounded*abs(answer%mode%rate))
+    answer%decides = findloc(find_branches(answer%mode%owner, answer%mode%moving_share, answer%mode%kind, answer%mode%rate), .true., 1)
     if (answer%decides > 0) call sharpen(bearing, response, rotor, answer)
   end subroutine find_rotor_modes
-
-  !> Whether the rotor has a share in a mode.
-  elemental function is_of_shaft(mode)
-    type(rotor_mode_type), intent(in) :: mode !! that was found
-    logical :: is_of_shaft
-    is_of_shaft = mode%share >= least_share
-  end function is_of_shaft
-
-  !> Whether a mode is one of the foil: it has more of the energy than the film, and the rotor has no share.
-  elemental function is_of_foil(mode)
-    type(rotor_mode_type), intent(in) :: mode !! that was found
-    logical :: is_of_foil
-    is_of_foil = mode%foil_share >= 0.5_wp .and. .not. is_of_shaft(mode)
-  end function is_of_foil
 
   !> Modes of all kinds from the eigenvalues next to half the speed.
   subroutine collect_modes(bearing, response, rotor, answer)
@@ -409,8 +402,14 @@ contains
       if (.not. answer%found) return
       do i = 1, size(found)
         if (aimag(found(i)%rate) > highest*bearing%point%speed) cycle
-        answer%mode = [answer%mode, rotor_mode_type(kinds(k), found(i)%rate, found(i)%share, &
-                                                    whirl_sense(found(i)%motion), found(i)%foil_share)]
+        associate (one => found(i))
+          if (one%share >= least_share .and. real(one%rate) > -most_damped*abs(one%rate)) then
+            call find_moving_share(bearing, response, rotor, kinds(k), one)
+          end if
+          answer%mode = [answer%mode, rotor_mode_type(kinds(k), one%rate, one%share, whirl_sense(one%motion), one%foil_share, &
+                                                      one%moving_share, owner_of(one%share, one%foil_share, one%film_share, &
+                                                                                 one%moving_share))]
+        end associate
       end do
     end do
   end subroutine collect_modes
@@ -596,7 +595,7 @@ contains
     logical, allocatable :: kept(:)
     integer :: step, i
 
-    answer%mode = pack(answer%mode, is_of_shaft(answer%mode) .and. &
+    answer%mode = pack(answer%mode, is_of_shaft(answer%mode%owner) .and. &
                        real(answer%mode%rate) > -most_damped*abs(answer%mode%rate))
     call sort_modes(answer%mode)
     allocate (kept(size(answer%mode)), source=.true.)

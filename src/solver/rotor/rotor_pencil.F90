@@ -29,18 +29,20 @@ module gfb_rotor_pencil
   use slepceps
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, this_rank
-  use gfb_rotor, only: planar, rotor_type, motion_of, inertia_of, gyration_of, dynamic_matrix, inverse, cylindrical
+  use gfb_rotor, only: planar, rotor_type, motion_of, inertia_of, gyration_of, dynamic_matrix, planar_part, inertia_rate, inverse, &
+                       cylindrical
+  use gfb_mode_owner, only: participation
   use gfb_film_measures, only: square_integrals
   use gfb_bearing_system, only: bearing_system_type
   use gfb_complex_factors, only: complex_factors_type, solve_complex, keep_entries
   use gfb_petsc_kinds, only: pint
   use gfb_film_surface, only: journal_motions
-  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, forces_of
+  use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, find_sample, take_over_counts, forces_of
   use gfb_vibration_equations, only: vibration_equations_type, dissipates
   implicit none (type)
   private
   public :: take_rotor, put_rotor, entries_of, take_film, put_film, energies_of, energy_unit, find_pencil_modes, has_pencil, &
-            skip_inner_modes, relaxation_of
+            find_moving_share, skip_inner_modes, relaxation_of
 
   !> Sizes of the rotor's entries.
   type, public :: rotor_scale_type
@@ -78,6 +80,8 @@ module gfb_rotor_pencil
     complex(wp) :: motion(planar) = 0.0_wp !! of the rotor, of any size
     real(wp) :: share = 0.0_wp          !! of the rotor in the mode, 0 .. 1 [1]
     real(wp) :: foil_share = 0.0_wp     !! of the foil, 0 .. 1 [1]
+    real(wp) :: film_share = 0.0_wp     !! of the film, 0 .. 1 [1]
+    real(wp) :: moving_share = 0.0_wp   !! of the rotor in the kinetic energy of rotor and foil, 0 .. 1 [1]
   end type pencil_mode_type
 
   real(wp), parameter :: unnoticed = 0.1_wp !! pressures that relaxing springs are not held by, over their forces [1]
@@ -582,7 +586,8 @@ contains
   !> The rotor's motion in a mode, and what share it has. Its displacement in the bearing over the clearance, squared,
   !> stands for an energy \( p_a C A / 2 \) of a film that is trapped; beside it are what the film stores by its pressures
   !> and the foil's strain and kinetic energy (`energies_of`). That is multiplied by the rotor's part of the kinetic energy
-  !> of rotor and foil, so that a foil that takes a heavy rotor along by next to nothing is not the rotor.
+  !> of rotor and foil, so that a foil that takes a heavy rotor along by next to nothing is not the rotor. That part tells
+  !> rotor from foil: where either vibrates by itself it is half of the energy, and the other half strains what carries it.
   subroutine weigh(pencil, real_part, imaginary_part, mode)
     type(pencil_type), intent(in) :: pencil
     Vec, intent(in) :: real_part, imaginary_part
@@ -604,10 +609,75 @@ contains
     mass = pencil%inertia*pencil%scale%length**2/energy_unit(pencil%share(1))
     associate (all => max(tiny(1.0_wp), of_rotor + energies(1) + of_foil), &
                moving => max(tiny(1.0_wp), mass*of_rotor + energies(3)))
-      mode%share = of_rotor/all*(mass*of_rotor/moving)
+      mode%moving_share = mass*of_rotor/moving
+      mode%share = of_rotor/all*mode%moving_share
       mode%foil_share = of_foil/all
+      mode%film_share = energies(1)/all
     end associate
   end subroutine weigh
+
+  !> The rotor's share of what moves in a mode (`gfb_mode_owner`); without the foil's mass, or where it cannot be solved for, it stays
+  !> the rotor's part of the kinetic energy.
+  subroutine find_moving_share(bearing, response, rotor, kind, mode)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it, with a pencil
+    type(rotor_type), intent(in) :: rotor !! on the bearing
+    integer, intent(in) :: kind !! `cylindrical` or `conical`
+    type(pencil_mode_type), intent(inout) :: mode !! that vibrates
+    complex(wp), dimension(journal_motions, journal_motions) :: z, slope, without_mass
+    logical :: found(2)
+
+    if (.not. response%equations%inertia%present) return
+    call skip_inner_modes(response, .true.)
+    call find_slopes(bearing, response, kind, mode%rate, .false., z, slope, found(1))
+    call find_slopes(bearing, response, kind, mode%rate, .true., z, without_mass, found(2))
+    call skip_inner_modes(response, .false.)
+    if (.not. all(found)) return
+    associate (speed => bearing%point%speed)
+      mode%moving_share = participation(dynamic_matrix(rotor, kind, z, mode%rate, speed), inertia_rate(rotor, kind, mode%rate, speed), &
+                                        planar_part(rotor, kind, slope - without_mass))
+    end associate
+  end subroutine find_moving_share
+
+  !> Z of a rate and its derivative, of the motions of a kind.
+  subroutine find_slopes(bearing, response, kind, rate, without_mass, z, slope, found)
+    type(bearing_system_type), intent(in) :: bearing
+    type(dynamic_response_type), intent(inout) :: response
+    integer, intent(in) :: kind
+    complex(wp), intent(in) :: rate !! [1/s]
+    logical, intent(in) :: without_mass !! the derivative lacks the foil's
+    complex(wp), intent(out) :: z(:, :), slope(:, :) !! 0 by symmetry, or where they are not asked for [SI]
+    logical, intent(out) :: found
+    integer :: i
+
+    z = 0.0_wp
+    slope = 0.0_wp
+    found = .true.
+    do i = 1, merge(1, size(response%part), kind == cylindrical)
+      if (found) call add_part(bearing, response, i)
+    end do
+    if (kind == cylindrical .or. .not. (found .and. allocated(response%opposite))) return
+    call add_part(response%opposite_bearing, response%opposite, 1)
+    call take_over_counts(response)
+
+  contains
+
+    !> Adds those of a part's coordinates.
+    subroutine add_part(its_bearing, its_response, number)
+      type(bearing_system_type), intent(in) :: its_bearing
+      type(dynamic_response_type), intent(inout) :: its_response
+      integer, intent(in) :: number !! of its part
+      integer, allocatable :: k(:)
+      complex(wp), allocatable :: value(:, :), change(:, :)
+
+      k = its_response%part(number)%coordinate
+      allocate (value(size(k), size(k)), change(size(k), size(k)))
+      call find_sample(its_bearing, its_response, number, rate, value, change, found, without_mass)
+      if (.not. found) return
+      z(k, k) = value
+      slope(k, k) = change
+    end subroutine add_part
+  end subroutine find_slopes
 
   !> Frees what PETSc holds.
   subroutine destroy_pencil(pencil)

@@ -25,7 +25,8 @@ module gfb_dynamics
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type, conical
-  use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes, find_axial_mode, rotor_mode_type, is_of_shaft, is_of_foil
+  use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes, find_axial_mode, rotor_mode_type
+  use gfb_mode_owner, only: is_of_shaft, of_both
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of, mode_numbers, &
                                  motion_names
   implicit none (type, external)
@@ -38,6 +39,7 @@ module gfb_dynamics
   integer, parameter :: mode_digits = 5
   real(wp), parameter :: dead = 0.9_wp !! a mode with a larger damping ratio is not shown [1]
   real(wp), parameter :: circular = 0.05_wp !! a smaller sense goes to and fro [1]
+  character(len=*), parameter :: owners(4) = [character(len=14) :: 'rotor', 'foil', 'film', 'rotor and foil'] !! of modes, by number
 
 contains
 
@@ -490,7 +492,7 @@ contains
     else
       if (.not. briefly) then
         call log%line('modes: frequency [rad/s] (over speed), growth [1/s], damping ratio, rotor''s share')
-        listed = damping_ratio(answer%mode) < dead .or. .not. is_of_shaft(answer%mode) .and. real(answer%mode%rate) > 0.0_wp
+        listed = damping_ratio(answer%mode) < dead .or. .not. is_of_shaft(answer%mode%owner) .and. real(answer%mode%rate) > 0.0_wp
         do i = 1, size(answer%mode)
           if (listed(i)) call log%line(mode_words(speed, answer%mode(i)))
         end do
@@ -529,12 +531,22 @@ contains
 
     words = text(aimag(mode%rate), mode_digits)//' ('//text(aimag(mode%rate)/speed, mode_digits)//'), '// &
             text(real(mode%rate, wp), mode_digits)//', '//text(damping_ratio(mode), mode_digits)//', '//text(mode%share, 3)//', '
-    if (.not. is_of_shaft(mode)) then
-      words = words//trim(merge('foil', 'film', is_of_foil(mode)))
+    if (.not. is_of_shaft(mode%owner)) then
+      words = words//trim(owners(mode%owner))
     else
-      words = words//trim(merge('conical    ', 'cylindrical', mode%kind == conical))//sense_words(mode)
+      words = words//motion_words(mode)
     end if
   end function mode_words
+
+  !> What the rotor does in a mode, and whether the foil vibrates as much.
+  function motion_words(mode) result(words)
+    type(rotor_mode_type), intent(in) :: mode !! the rotor's, or both's
+    character(len=:), allocatable :: words
+
+    words = trim(merge('conical    ', 'cylindrical', mode%kind == conical))//sense_words(mode)
+    if (mode%owner == of_both) words = words//', rotor and foil: the rotor has '//text(100.0_wp*mode%moving_share, 2)// &
+                                       ' % of what moves'
+  end function motion_words
 
   !> Which way a mode goes round.
   pure function sense_words(mode) result(words)
@@ -554,7 +566,7 @@ contains
     type(rotor_mode_type), intent(in) :: mode
     character(len=:), allocatable :: words
 
-    words = 'a mode of the '//trim(merge('foil', 'film', is_of_foil(mode)))//' at '//text(aimag(mode%rate)/speed, mode_digits)// &
+    words = 'a mode of the '//trim(owners(mode%owner))//' at '//text(aimag(mode%rate)/speed, mode_digits)// &
             ' of the speed that changes as exp('//text(real(mode%rate, wp), mode_digits)//' t)'
   end function other_words
 
@@ -566,8 +578,7 @@ contains
 
     words = 'stable, its'
     if (real(mode%rate, wp) > 0.0_wp) words = 'unstable, its'
-    words = words//' least damped mode ('//trim(merge('conical    ', 'cylindrical', mode%kind == conical))// &
-            sense_words(mode)//') is at '//text(aimag(mode%rate)/speed, mode_digits)//' of the speed and changes as exp('// &
+    words = words//' least damped mode ('//motion_words(mode)//') is at '//text(aimag(mode%rate)/speed, mode_digits)//' of the speed and changes as exp('// &
             text(real(mode%rate, wp), mode_digits)//' t), damping ratio '//text(damping_ratio(mode), mode_digits)
   end function state_words
 
@@ -605,7 +616,7 @@ contains
     do i = 1, size(matrix, 2)
       associate (mode => answer%mode(i))
         matrix(:, i) = [aimag(mode%rate), real(mode%rate, wp), damping_ratio(mode), mode%share, real(mode%kind, wp), mode%sense, &
-                        mode%foil_share]
+                        mode%foil_share, mode%moving_share, real(mode%owner, wp)]
       end associate
     end do
   end function mode_matrix

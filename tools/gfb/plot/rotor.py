@@ -10,8 +10,9 @@ from gfb.results import text_of
 from gfb.tool import stop
 
 KINDS = ("campbell", "map")
-MODE = ("frequency", "damping_ratio", "shaft_share", "foil_share", "kind", "sense")  # what is told of each
-ROTOR = 0.02     # a smaller share of the rotor is a mode of film or foil
+MODE = ("frequency", "damping_ratio", "shaft_share", "foil_share", "owner", "kind", "sense")  # what is told of each
+ROTOR, FOIL, BOTH = 1, 2, 4  # owners of modes
+LEAST = 0.02     # of files that do not tell the owner: a smaller share of the rotor is a mode of film or foil
 DEAD = 0.9       # a larger damping ratio is no vibration
 KIND_WORDS = {1: "cylindrical", 2: "conical"}
 GRAVITY = 9.81   # [m/s2]
@@ -47,12 +48,22 @@ def read_modes(group, here=...):
     return {name: group[f"mode_{name}"][here] for name in MODE if f"mode_{name}" in group}
 
 
+def of_rotor(modes):
+    """Which modes are the rotor's, or both the rotor's and the foil's."""
+    if "owner" in modes:
+        return (modes["owner"] == ROTOR) | (modes["owner"] == BOTH)
+    with numpy.errstate(invalid="ignore"):
+        return modes["shaft_share"] > LEAST
+
+
 def of_foil(modes):
     """Which modes are the foil's: the rotor has no share that counts, and the foil more of the energy than the film."""
+    if "owner" in modes:
+        return modes["owner"] == FOIL
     if "foil_share" not in modes:
         return numpy.zeros(modes["frequency"].shape, bool)
     with numpy.errstate(invalid="ignore"):
-        return (modes["shaft_share"] < ROTOR) & (modes["foil_share"] > 1.0 - modes["shaft_share"] - modes["foil_share"])
+        return (modes["shaft_share"] < LEAST) & (modes["foil_share"] > 1.0 - modes["shaft_share"] - modes["foil_share"])
 
 
 def rates(modes):
@@ -97,7 +108,7 @@ def draw_campbell(path, file):
         above.plot(ends, ratio*ends/60.0, style, linewidth=1.0, label=words)
     with numpy.errstate(invalid="ignore"):
         vibrates = (damping < DEAD) & (hertz > 0.0)
-        shown = vibrates & (modes["shaft_share"] > ROTOR)
+        shown = vibrates & of_rotor(modes)
     for branch in branches(rates(modes), modes["kind"], shown):
         place = tuple(numpy.array(branch).T)
         for chart, values in ((above, hertz), (below, damping)):
