@@ -19,6 +19,7 @@ from gfb_run import GFB, Bearing, Checks, observed_order, solve, summary_differe
 SAME = 1.0e-6      # of two ways to a limit
 GAP, GAP_4, GAP_5 = 3.0e-6, 4.0e-6, 5.0e-6  # [m]
 PART = 0.01        # of the load, on asperities
+FEW = 100          # factorizations of a limit of shells, its start with them
 MESHES = (32, 64, 128)  # nodes around
 POUNDS = 0.0254**3*1000.0*numpy.pi/30.0/4.4482216152605  # lbf/(in^3 krpm) over N s/m^3
 GU2020 = Bearing(radius=0.01905, length=0.0381, clearance=31.8e-6, viscosity=1.95e-5, ambient_pressure=1.0135e5)
@@ -209,6 +210,40 @@ def check_misalignment(checks, folder):
                     on_both_sides(lambda size, tilts=tilts: gap_of(folder, **tilts(size)) > GAP, found))
 
 
+def shells(analysis, capacity, mesh, radius, length, clearance, bumps, load, speed_rpm, **operation):
+    """Shells on a coarse mesh, with bumps all around."""
+    content = case(analysis, capacity, {"foil": "shell"}, mesh, bearing={"radius": radius, "length": length, "clearance": clearance}, **FOILS)
+    content["mesh"] |= {"arc_elements": 4, "flat_elements": 2}
+    content["top_foil"]["fixed_edge"] = "leading"
+    content["bump_foil"] |= {"bumps": bumps, "pitch": 0.997*2.0*numpy.pi*radius/bumps}
+    return content | {"operation": {"speed_rpm": speed_rpm, "load": (-load, 0.0)} | operation}
+
+
+def check_shells(checks, folder):
+    """Contacts that open and close on the way cost some factorizations, not some hundred: lift-off on half the width, misalignment
+    on the whole. Plain equilibria, each from nothing, lie on both sides."""
+    journal = {"mesh": (104, 4), "radius": 19.0e-3, "length": 38.1e-3, "clearance": 31.8e-6, "bumps": 26, "load": 17.2}
+    rough = {"roughness": 0.5e-6, "pressure": 1.0e7}
+
+    def lifted(speed):
+        answer = solve(folder, "plain", shells("equilibrium", None, speed_rpm=speed, **journal) | {"shaft_contact": rough})
+        return numpy.hypot(answer["solid_contact_force_x"], answer["solid_contact_force_y"]) < PART*journal["load"]
+
+    answer = solve(folder, "lift", shells("lift_off", {"contact_part": PART}, speed_rpm=15000.0, **journal) | {"shaft_contact": rough})
+    checks.that("lift-off, shells: reached", answer["limit_reached"] == "true")
+    checks.that(f"lift-off, shells: {answer['factorizations']:.0f} factorizations, once 524", answer["factorizations"] < FEW)
+    checks.that("lift-off, shells: plain equilibria on both sides", on_both_sides(lambda speed: not lifted(speed), answer["lift_off_speed_rpm"]))
+
+    journal = {"mesh": (140, 4), "radius": 25.4e-3, "length": 40.6e-3, "clearance": 42.0e-6, "bumps": 35, "load": 15.5, "speed_rpm": 20000.0}
+    thin = 1.0e-6
+    answer = solve(folder, "tilt", shells("misalignment_allowance", {"smallest_gap": thin, "tilt_axis": "x"}, **journal))
+    found = answer["misalignment_allowance"]
+    checks.that("misalignment, shells: reached", answer["limit_reached"] == "true")
+    checks.that(f"misalignment, shells: {answer['factorizations']:.0f} factorizations, once 409", answer["factorizations"] < FEW)
+    checks.that("misalignment, shells: plain equilibria on both sides", on_both_sides(
+        lambda tilt: solve(folder, "plain", shells("equilibrium", None, tilt=(tilt, 0.0), **journal))["minimum_gap"] > thin, found))
+
+
 def check_sweeps(checks, folder):
     """A point of a sweep is the limit of its own scene: over speed, over a key of the bearing and of &capacity."""
     for parameter, values, group in (("speed_rpm", (20000.0, 40000.0), "operation"), ("bearing%clearance", (2.5e-5, 3.5e-5), ""),
@@ -263,7 +298,7 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for check in (check_capacity, check_beams, check_similarity, check_pads, check_ends, check_suction, check_lift_off, check_misalignment,
+        for check in (check_capacity, check_beams, check_similarity, check_pads, check_ends, check_suction, check_lift_off, check_misalignment, check_shells,
                       check_sweeps, check_pieces, check_meshes):
             check(checks, folder)
     checks.close()

@@ -38,7 +38,7 @@ module gfb_newton
   implicit none (type)
   private
   public :: show_enlargements, create_newton, renew_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, &
-            solve_transposed, forget_factors, destroy_newton, visit_counts, newton_report_type, work_bound_type
+            has_factors, solve_transposed, forget_factors, destroy_newton, visit_counts, newton_report_type, work_bound_type
 
   !> How a solve ended.
   type, public :: newton_report_type
@@ -330,7 +330,13 @@ contains
     if (newton%enlargements > before) call show_enlargements(newton%log, newton%enlargements)
   end subroutine find_determinant_sign
 
-  !> Solves a linear system with the factors that `find_determinant_sign` made.
+  !> Whether there are factors, those of the last matrix that was factored.
+  pure logical function has_factors(newton)
+    type(newton_type), intent(in) :: newton !! the solver
+    has_factors = newton%created .and. .not. newton%linear%forgotten
+  end function has_factors
+
+  !> Solves a linear system with the factors at hand: those that `find_determinant_sign` made, or the last ones of a solve.
   subroutine solve_with_factors(newton, right, solution)
     type(newton_type), intent(in) :: newton !! the solver
     Vec, intent(in) :: right    !! scaled

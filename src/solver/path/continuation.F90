@@ -71,7 +71,10 @@ module gfb_continuation
     real(wp) :: failed = 2.0_wp        !! parameter of the last trial that failed
     type(heat_trail_type) :: heat      !! of the last answers
     character(len=:), allocatable :: why !! the last trial has failed
+    character(len=:), allocatable :: course !! from where to where, in words; or empty
     Vec :: here, before                !! last two answers
+    logical :: knows_rate = .false.    !! `rate` is that at the answer `here`
+    Vec :: rate                        !! of the state along the path, by its parameter
   contains
     procedure :: try => try_point, accept => accept_point, restore => restore_point, has_steps
     procedure :: gives_up => path_gives_up, rescue => rescue_path, is_too_far => too_thin
@@ -228,15 +231,17 @@ contains
 
   !> Leads the bearing from a point where its state is the answer to another point.
   !>
-  !> Each step starts from a straight line through the last two answers. A step that does not
-  !> converge is halved and never accepted. On return the state is the last answer.
-  subroutine follow_path(bearing, newton, target, first_step, settings, report)
+  !> Each step starts from a straight line through the last two answers, the first one from the path's tangent where that is
+  !> known. A step that does not converge is halved and never accepted. On return the state is the last answer.
+  subroutine follow_path(bearing, newton, target, first_step, settings, report, rate, course)
     type(bearing_system_type), target, intent(inout) :: bearing !! pads and shaft
     type(newton_type), target, intent(inout) :: newton !! of the bearing
     type(operating_point_type), intent(in) :: target !! where the path leads
     real(wp), intent(in) :: first_step !! share of the path to try first [1]
     type(path_settings_type), intent(in) :: settings !! limits of the path
     type(path_report_type), intent(out) :: report !! how far it led
+    Vec, intent(in), optional :: rate !! of the state where the path begins, by the share of the path
+    character(len=*), intent(in), optional :: course !! from where to where it leads, for lines that tell how far it is
 
     type(point_path_type) :: path
     real(wp) :: smallest
@@ -253,6 +258,10 @@ contains
     PetscCallA(VecDuplicate(bearing%state, path%here, ierr))
     PetscCallA(VecDuplicate(bearing%state, path%before, ierr))
     PetscCallA(VecCopy(bearing%state, path%here, ierr))
+    path%course = ''
+    if (present(course)) path%course = course
+    path%knows_rate = present(rate)
+    if (present(rate)) path%rate = rate
     ! A path that is long against its beginning needs steps that are small against the path.
     smallest = min(settings%smallest_step, shortest_first*first_step)
     if (settings%smallest_share > 0.0_wp) smallest = settings%smallest_step ! it is measured by its own way
@@ -292,9 +301,9 @@ contains
     integer, intent(out) :: iterations
     type(newton_report_type) :: solved
 
-    call self%newton%log%is_at(text(100.0_wp*self%at, 2)//' % of the way', self%at)
+    call self%newton%log%is_at(text(100.0_wp*self%at, 2)//' % of the way'//self%course, self%at)
     self%bearing%point = point_between(self%start, self%target, trial)
-    call predict(self%bearing, self%here, self%before, self%at, self%at_before, trial)
+    call predict(self, trial)
     call try_step(self%newton, may_be_cut, self%settings, solved)
     converged = solved%converged
     iterations = solved%iterations
@@ -311,6 +320,7 @@ contains
     PetscCallA(VecCopy(self%here, self%before, ierr))
     PetscCallA(VecCopy(self%bearing%state, self%here, ierr))
     self%at_before = self%at
+    self%knows_rate = .false.
     self%reached = self%bearing%point
     call feel_heat(self, trial)
   end subroutine accept_point
@@ -439,6 +449,7 @@ contains
       if (lands) then
         PetscCallA(VecCopy(bearing%state, here, ierr))
         path%at_before = -1.0_wp
+        path%knows_rate = .false.
         path%at = path%at + share*(1.0_wp - path%at)
         path%reached = bearing%point
       else
@@ -501,13 +512,10 @@ contains
     emptied = answer%minimum_pressure < empty*bearing%pad(1)%film%ambient_pressure
   end function is_emptied
 
-  !> Start value of a step: the line through the last two answers, as far along it as can be
-  !> evaluated.
-  subroutine predict(bearing, here, before, at_here, at_before, trial)
-    type(bearing_system_type), intent(inout) :: bearing
-    Vec, intent(in) :: here, before         !! last two answers
-    real(wp), intent(in) :: at_here, at_before !! where on the path; the latter negative if none
-    real(wp), intent(in) :: trial           !! where the step ends
+  !> Start value of a step: the line through the last two answers, or the path's tangent, as far along it as can be evaluated.
+  subroutine predict(path, trial)
+    type(point_path_type), intent(inout) :: path
+    real(wp), intent(in) :: trial !! where the step ends
 
     integer, parameter :: attempts = 3
     Vec :: residual
@@ -516,17 +524,24 @@ contains
     integer :: attempt
     logical :: valid
 
-    if (at_before < 0.0_wp) return
-    PetscCallA(VecDuplicate(here, residual, ierr))
-    stretch = (trial - at_here)/(at_here - at_before)
-    do attempt = 1, attempts
-      PetscCallA(VecCopy(here, bearing%state, ierr))
-      PetscCallA(VecAXPBYPCZ(bearing%state, -stretch, stretch, 1.0_wp, before, here, ierr))
-      call bearing%evaluate(bearing%state, residual, valid)
-      if (.not. any_rank(.not. valid)) exit
-      stretch = 0.5_wp*stretch
-      PetscCallA(VecCopy(here, bearing%state, ierr))
-    end do
-    PetscCallA(VecDestroy(residual, ierr))
+    if (path%at_before < 0.0_wp .and. .not. path%knows_rate) return
+    associate (bearing => path%bearing, here => path%here)
+      PetscCallA(VecDuplicate(here, residual, ierr))
+      stretch = trial - path%at
+      if (.not. path%knows_rate) stretch = stretch/(path%at - path%at_before)
+      do attempt = 1, attempts
+        PetscCallA(VecCopy(here, bearing%state, ierr))
+        if (path%knows_rate) then
+          PetscCallA(VecAXPY(bearing%state, stretch, path%rate, ierr))
+        else
+          PetscCallA(VecAXPBYPCZ(bearing%state, -stretch, stretch, 1.0_wp, path%before, here, ierr))
+        end if
+        call bearing%evaluate(bearing%state, residual, valid)
+        if (.not. any_rank(.not. valid)) exit
+        stretch = 0.5_wp*stretch
+        PetscCallA(VecCopy(here, bearing%state, ierr))
+      end do
+      PetscCallA(VecDestroy(residual, ierr))
+    end associate
   end subroutine predict
 end module gfb_continuation

@@ -27,7 +27,7 @@ module gfb_bearing_solution
   use gfb_branch_watch, only: watch_branch
   use gfb_key_path, only: follow_keys
   use gfb_last_answer, only: last_answer_type
-  use gfb_limit_search, only: find_limit, leave_limit
+  use gfb_limit_search, only: find_limit, leave_limit, limit_straight_steps
   use gfb_ending, only: ending_stopped
   use gfb_reasons, only: reason_type, reason_no_equilibrium, reason_no_answer, reason_fixed_shaft, reason_no_limit
   use gfb_run_context, only: run_context_type
@@ -173,21 +173,24 @@ contains
     integer, intent(in) :: point !! of the sweep
     type(path_report_type), intent(out) :: report !! of the path
     type(operating_point_type) :: before
+    type(path_settings_type) :: path
     logical :: limits
 
     limits = self%scene%capacity%question > 0
+    path = self%path
+    if (limits) path%straight_steps = limit_straight_steps
     if (self%scene%sweep%parameter == sweep_keys) then
       before = operating_point(self%here%operation)
-      if (limits) call leave_limit(before, self%path, self%bearing, self%newton)
-      call follow_keys(self%scene, self%plan, self%value, self%scene%sweep%values(point), self%path, self%bearing, &
+      if (limits) call leave_limit(before, path, self%bearing, self%newton)
+      call follow_keys(self%scene, self%plan, self%value, self%scene%sweep%values(point), path, self%bearing, &
                        self%newton, report)
       return
     end if
-    if (limits .and. point > 1) call leave_limit(self%target_at(point - 1), self%path, self%bearing, self%newton)
+    if (limits .and. point > 1) call leave_limit(self%target_at(point - 1), path, self%bearing, self%newton)
     if (self%partitioned) then
       call follow_partitioned(self%bearing, self%newton, self%target_at(point), self%path, self%sides, report)
     else
-      call follow_path(self%bearing, self%newton, self%target_at(point), 1.0_wp, self%path, report)
+      call follow_path(self%bearing, self%newton, self%target_at(point), 1.0_wp, path, report)
     end if
   end subroutine follow
 
@@ -274,7 +277,9 @@ contains
       call report%ending%add_words('no equilibrium to begin with: ', '')
       return
     end if
+    call self%bound%begin(self%here%solver%maximum_factorizations)
     call find_limit(self%here, self%context%log, self%path, self%bearing, self%newton, self%record%limit, self%record%at_fold, report)
+    call self%bound%lift()
   end subroutine approach_limit
 
   !> Where a sweep point puts the shaft; a fixed shaft stays where it is.

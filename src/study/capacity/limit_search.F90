@@ -1,7 +1,13 @@
 #include "gfb_petsc.h"
-!> The load, speed or tilt at which film or asperities reach a limit: along the branch of equilibria from a given one until
-!> the limit is passed, then by false position, every trial an equilibrium on that branch.
+!> The load, speed or tilt at which film or asperities reach a limit: along the branch of equilibria from a given one, every trial
+!> an equilibrium on that branch.
+!>
+!> At an answer \( x \) at the value \( v \) one solution by the factors at hand gives the branch's tangent,
+!> \( x' = -f_x^{-1} f_v \). The reserve \( r \) falls along it by \( r' = r_x x' + r_v \): where \( r + r' \Delta v = 0 \) the limit
+!> is tried next, from \( x + x' \Delta v \), which is Newton's method for the limit. No step more than doubles or halves a load or a
+!> speed; once the limit lies between two answers, a step that would leave them is one of false position.
 module gfb_limit_search
+  use petscvec
   use gfb_kinds, only: wp
   use gfb_units, only: rpm, micrometres
   use gfb_ending, only: path_reached, path_stopped, path_lost, ending_fold
@@ -17,7 +23,7 @@ module gfb_limit_search
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: stop_agreed
-  use gfb_newton, only: newton_type
+  use gfb_newton, only: newton_type, has_factors, solve_with_factors
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_saved_state, only: saved_state_type
   use gfb_root_bracket, only: root_bracket_type
@@ -44,21 +50,27 @@ module gfb_limit_search
     real(wp) :: arm = 0.0_wp          !! by which a tilt moves the film's edge [m]
     real(wp) :: area = 0.0_wp         !! of the pads of a thrust bearing; 0: it is a journal's [m2]
   contains
-    procedure :: value_at, point_with, reserve, next_value, is_of_film, results, words, never_within
-    procedure, private :: coefficient
+    procedure :: value_at, point_with, reserve, next_value, aimed_value, is_of_film, results, words, never_within
+    procedure, private :: coefficient, course
   end type limit_type
 
-  integer, parameter :: most_steps = 30           !! each doubles or halves what is looked for
+  integer, parameter :: most_steps = 30           !! before the limit is passed
   integer, parameter :: most_steps_back = 15      !! from beyond the limit: to a 33,000th of the load
   integer, parameter :: most_trials = 40          !! between two values on both sides
   real(wp), parameter :: tolerance = 1.0e-9_wp    !! of load, speed or tilt, relative [1]
   real(wp), parameter :: settled = 1.0e-10_wp     !! reserve that needs no other trial [1]
   real(wp), parameter :: at_limit = 1.0e-6_wp     !! reserve that is none [1]
+  real(wp), parameter :: shift = 1.0e-4_wp        !! of what is looked for, for derivatives, over the longest step [1]
+  !> Newton's steps before they are bent at contacts that change: where crests open and close as the film thins, straight ones go
+  !> to and fro among them, and steps of the path are cut for it.
+  integer, parameter, public :: limit_straight_steps = 3
 
-  !> Two values on both sides of the limit, and the last answer on its near side.
+  !> Two values on both sides of the limit, the last answer on its near side, and how the branch goes on from the present one.
   type :: sides_type
     type(root_bracket_type) :: bracket !! the bearing is at its `high`
     type(saved_state_type) :: within    !! with reserve; not created where none was met
+    Vec :: rate                         !! of the state at the bearing's answer, by what is looked for
+    real(wp) :: slope = 0.0_wp          !! of the reserve along it; 0: not known [1/unit]
   end type sides_type
 
 contains
@@ -166,6 +178,24 @@ contains
     end select
   end function next_value
 
+  !> Where the reserve would be none if it went on as its tangent does: over the logarithm of a load or speed, as the film is next
+  !> to a power of either; the value itself where the slope tells nothing.
+  pure real(wp) function aimed_value(self, value, left, slope) result(aim)
+    class(limit_type), intent(in) :: self !! the limit
+    real(wp), intent(in) :: value !! load [N], speed [rad/s] or tilt [rad]
+    real(wp), intent(in) :: left  !! reserve there [1]
+    real(wp), intent(in) :: slope !! of the reserve [1/unit]
+    real(wp), parameter :: longest = 3.0_wp !! logarithm of a step [1]
+
+    aim = value
+    if (.not. abs(slope) > 0.0_wp) return
+    if (self%question == analysis_lift_off .or. self%question == analysis_load_capacity) then
+      aim = value*exp(max(-longest, min(longest, -left/(slope*value))))
+    else
+      aim = value - left/slope
+    end if
+  end function aimed_value
+
   !> What summary and history say of the limit.
   function results(self, point, reached) result(list)
     class(limit_type), intent(in) :: self !! the limit
@@ -204,6 +234,22 @@ contains
     type(operating_point_type), intent(in) :: point !! with the load
     part = norm2(answer%solid_force(:translations))/norm2(point%load(:translations))
   end function contact_part
+
+  !> From where to where a step leads, for the lines that tell how far a long run is.
+  pure function course(self, from, to) result(words)
+    class(limit_type), intent(in) :: self !! the limit
+    real(wp), intent(in) :: from, to !! loads [N], speeds [rad/s] or tilts [rad]
+    character(len=:), allocatable :: words
+
+    select case (self%question)
+    case (analysis_load_capacity)
+      words = ' from '//text(from, 4)//' to '//text(to, 4)//' N'
+    case (analysis_lift_off)
+      words = ' from '//text(from/rpm, 4)//' to '//text(to/rpm, 4)//' rpm'
+    case default
+      words = ' from '//text(from*milliradians, 4)//' to '//text(to*milliradians, 4)//' mrad'
+    end select
+  end function course
 
   !> The limit as a sentence without its end.
   function words(self, bearing) result(sentence)
@@ -273,11 +319,17 @@ contains
     type(path_report_type), intent(out) :: report !! whether there is an answer
     type(limit_type) :: limit
     type(sides_type) :: sides
+    type(path_settings_type) :: settings
+    PetscErrorCode :: ierr
     logical :: passed
 
     limit = limit_of(scene, bearing%point)
-    call pass_limit(limit, path, bearing, newton, sides, passed, report)
-    if (passed) call close_in(limit, path, bearing, newton, sides, report)
+    settings = path
+    settings%straight_steps = limit_straight_steps
+    PetscCallA(VecDuplicate(bearing%state, sides%rate, ierr))
+    call pass_limit(limit, settings, bearing, newton, sides, passed, report)
+    if (passed) call close_in(limit, settings, bearing, newton, sides, report)
+    PetscCallA(VecDestroy(sides%rate, ierr))
     at_fold = report%ending%kind == ending_fold
     if (stop_agreed()) then
       report%ending = path_stopped() ! the caller knows why
@@ -297,7 +349,7 @@ contains
     call follow_path(bearing, newton, target, 1.0_wp, path, report)
   end subroutine leave_limit
 
-  !> Goes on, or back, until the limit lies between two answers, or the branch ends.
+  !> Goes on, or back, until the limit is met or lies between two answers, or the branch ends.
   subroutine pass_limit(limit, path, bearing, newton, sides, passed, report)
     type(limit_type), intent(in) :: limit
     type(path_settings_type), intent(in) :: path
@@ -307,7 +359,7 @@ contains
     logical, intent(out) :: passed
     type(path_report_type), intent(out) :: report !! why not
     type(path_settings_type) :: settings
-    real(wp) :: value, left, next, first
+    real(wp) :: value, left, next, first, aim
     logical :: starts_within, stops
     integer :: step
 
@@ -326,8 +378,16 @@ contains
       sides%bracket%at_low = left
       next = limit%next_value(value, left)
       if (abs(next - value) <= 0.0_wp) exit ! there is no way farther back
-      call follow_path(bearing, newton, limit%point_with(bearing%point, next), 1.0_wp, settings, report)
-      call look()
+      call find_rate(limit, bearing, newton, abs(next - value), left, sides)
+      aim = limit%aimed_value(value, left, sides%slope)
+      if ((aim - value)*(next - aim) > 0.0_wp) next = aim
+      call follow_branch(limit, next, settings, bearing, newton, sides, report)
+      value = limit%value_at(bearing%point)
+      left = limit%reserve(bearing)
+      if (.not. left < 0.0_wp) call sides%within%save(bearing)
+      sides%bracket%high = value
+      sides%bracket%at_high = left
+      passed = left*first <= 0.0_wp .or. abs(left) <= settled .or. abs(value - sides%bracket%low) <= tolerance*abs(value)
       stops = stop_agreed()
       if (passed .or. stops) return
       if (.not. report%converged()) then
@@ -335,24 +395,12 @@ contains
         return
       end if
     end do
-    report%ending = path_lost('not met after '//text(most_steps)//' steps, each of which doubled or halved what is looked for')
+    report%ending = path_lost('not met after '//text(most_steps)//' steps')
     if (.not. starts_within) report%ending = path_lost(limit%never_within(bearing))
-
-  contains
-
-    !> At a new answer: on which side of the limit it lies.
-    subroutine look()
-      value = limit%value_at(bearing%point)
-      left = limit%reserve(bearing)
-      if (.not. left < 0.0_wp) call sides%within%save(bearing)
-      sides%bracket%high = value
-      sides%bracket%at_high = left
-      passed = left*first <= 0.0_wp
-    end subroutine look
   end subroutine pass_limit
 
-  !> False position between both sides, from the second one's answer; where no path leads back from that, from the last answer on
-  !> the near side.
+  !> From both sides to the limit, where the tangent of the last answer has it or by false position; where no path leads back from
+  !> the second side, from the last answer on the near side.
   subroutine close_in(limit, path, bearing, newton, sides, report)
     type(limit_type), intent(in) :: limit
     type(path_settings_type), intent(in) :: path
@@ -360,7 +408,7 @@ contains
     type(newton_type), target, intent(inout) :: newton
     type(sides_type), intent(inout) :: sides
     type(path_report_type), intent(out) :: report !! of the last trial
-    real(wp) :: trial, last, left
+    real(wp) :: trial, last, left, aim
     integer :: i
 
     report%ending = path_reached()
@@ -369,10 +417,15 @@ contains
       if (stop_agreed()) return
       last = sides%bracket%high
       trial = sides%bracket%trial()
-      call follow_path(bearing, newton, limit%point_with(bearing%point, trial), 1.0_wp, path, report)
+      left = limit%reserve(bearing)
+      call find_rate(limit, bearing, newton, abs(trial - last), left, sides)
+      aim = limit%aimed_value(last, left, sides%slope)
+      if ((aim - last)*(sides%bracket%low - aim) > 0.0_wp) trial = aim
+      call follow_branch(limit, trial, path, bearing, newton, sides, report)
       if (.not. report%converged() .and. sides%within%created) then
         call sides%within%restore(bearing)
-        call follow_path(bearing, newton, limit%point_with(bearing%point, trial), 1.0_wp, path, report)
+        sides%slope = 0.0_wp
+        call follow_branch(limit, trial, path, bearing, newton, sides, report)
       end if
       left = limit%reserve(bearing)
       if (.not. left < 0.0_wp) call sides%within%save(bearing)
@@ -382,6 +435,79 @@ contains
       call sides%bracket%narrow(trial, left)
     end do
   end subroutine close_in
+
+  !> The branch's tangent at the bearing's answer, and how the reserve falls along it, by differences of residual and reserve over a
+  !> small part of a step. The factors are those of the last iteration before the answer: near enough for a start value.
+  subroutine find_rate(limit, bearing, newton, step, left, sides)
+    type(limit_type), intent(in) :: limit
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(in) :: newton
+    real(wp), intent(in) :: step !! of what is looked for [its unit]
+    real(wp), intent(in) :: left !! reserve at the answer [1]
+    type(sides_type), intent(inout) :: sides
+    type(operating_point_type) :: here
+    real(wp) :: value, part
+    logical :: valid
+    Vec :: change, answer
+    PetscErrorCode :: ierr
+
+    sides%slope = 0.0_wp
+    part = shift*step
+    if (.not. (has_factors(newton) .and. part > 0.0_wp)) return
+    PetscCallA(VecDuplicate(bearing%state, change, ierr))
+    PetscCallA(VecDuplicate(bearing%state, answer, ierr))
+    PetscCallA(VecCopy(bearing%state, answer, ierr))
+    here = bearing%point
+    value = limit%value_at(here)
+    call bearing%evaluate_at(limit%point_with(here, value - part), answer, change, valid)
+    if (valid) call bearing%evaluate_at(limit%point_with(here, value + part), answer, sides%rate, valid)
+    if (valid) then
+      PetscCallA(VecAXPBY(change, -0.5_wp/part, 0.5_wp/part, sides%rate, ierr))
+      call solve_with_factors(newton, change, sides%rate)
+      bearing%point = limit%point_with(here, value + part)
+      PetscCallA(VecAXPY(bearing%state, part, sides%rate, ierr))
+      if (bearing_is_open(bearing)) sides%slope = (limit%reserve(bearing) - left)/part
+      PetscCallA(VecCopy(answer, bearing%state, ierr))
+      bearing%point = here
+    end if
+    PetscCallA(VecDestroy(change, ierr))
+    PetscCallA(VecDestroy(answer, ierr))
+  end subroutine find_rate
+
+  !> Whether the bearing's present state can be evaluated.
+  logical function bearing_is_open(bearing) result(open)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp) :: unknown(bearing%local_size())
+
+    call bearing%get_unknowns(unknown)
+    open = bearing%is_open_at(unknown)
+  end function bearing_is_open
+
+  !> A path to another value, from the tangent where that is known.
+  subroutine follow_branch(limit, next, path, bearing, newton, sides, report)
+    type(limit_type), intent(in) :: limit
+    real(wp), intent(in) :: next !! value [its unit]
+    type(path_settings_type), intent(in) :: path
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(sides_type), intent(inout) :: sides !! the tangent is used up
+    type(path_report_type), intent(out) :: report
+    type(operating_point_type) :: target
+    character(len=:), allocatable :: course
+    real(wp) :: value
+    PetscErrorCode :: ierr
+
+    value = limit%value_at(bearing%point)
+    target = limit%point_with(bearing%point, next)
+    course = limit%course(value, next)
+    if (abs(sides%slope) > 0.0_wp) then
+      PetscCallA(VecScale(sides%rate, next - value, ierr))
+      call follow_path(bearing, newton, target, 1.0_wp, path, report, sides%rate, course)
+    else
+      call follow_path(bearing, newton, target, 1.0_wp, path, report, course=course)
+    end if
+    sides%slope = 0.0_wp
+  end subroutine follow_branch
 
   !> Says what was found: the limit, or the last answer on its near side and why the limit is not met.
   subroutine conclude(limit, log, bearing, sides, found, at_fold, report)
