@@ -17,6 +17,7 @@ module gfb_contactless_start
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, trial_settings, clearance_of, usual_eccentricity
   use gfb_saved_state, only: saved_state_type
+  use gfb_soft_contact_start, only: hold_softly
   use gfb_start_position, only: guess_position, place_shaft, find_position, release_shaft, solve_at, put_at_rest, room_at_rest
   use gfb_film_room, only: smallest_gap_at_rest, closing_gaps, open_place
   implicit none (type)
@@ -89,7 +90,8 @@ contains
   end subroutine refuse_room
 
   !> The runner held at a gap at which its ramp bears most, 1.2 times the gap, or at that asked for where it is wider; from there to the gap asked
-  !> for, or released. A tilted runner is held as far above the gap at which it meets the pads.
+  !> for, or released. A tilted runner is held as far above the gap at which it meets the pads. Foils in contact that Newton's method does
+  !> not bring to speed there at once come on soft two-way contacts.
   subroutine try_from_gap(problem, report)
     type(start_problem_type), intent(inout) :: problem !! what is to be solved
     type(path_report_type), intent(out) :: report !! how it ended
@@ -118,7 +120,9 @@ contains
       call put_at_rest(bearing, held)
       call start%save(bearing)
       call solve_at(bearing, newton, held, .true., downwards, report)
-      if (.not. report%converged()) then
+      if (.not. report%converged() .and. bearing%has_contacts()) then
+        call hold_softly(bearing, newton, held, downwards, report)
+      else if (.not. report%converged()) then
         call start%restore(bearing)
         call follow_path(bearing, newton, held, 1.0_wp, downwards, report)
       end if

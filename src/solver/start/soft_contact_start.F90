@@ -18,10 +18,10 @@ module gfb_soft_contact_start
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, by_load, before, trial_settings, usual_eccentricity
   use gfb_saved_state, only: saved_state_type
-  use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at
+  use gfb_start_position, only: guess_position, find_position, release_shaft, solve_at, put_at_rest
   implicit none (type)
   private
-  public :: try_soft_contacts, approach
+  public :: try_soft_contacts, approach, hold_softly
 
   !> Releases contacts while the foil is pressed most: before the shaft is released where the load is larger than
   !> the film's force under the fixed shaft.
@@ -84,17 +84,9 @@ contains
     real(wp) :: force(film_forces)
     logical :: early, real_contacts
 
-    soft = settings
-    soft%look_for_folds = .false. ! they would be those of soft contacts
-    soft%touch_down_gap = max(settings%touch_down_gap, closing_gap*bearing%clearance) ! from where hard ones go on
-    soft%most_cuts = most_soft_cuts
+    soft = soft_settings(bearing, settings)
     wanted = newton%settings
-    newton%settings%straight_steps = rough%straight_steps
-    newton%settings%residual_tolerance = max(wanted%residual_tolerance, rough%residual_tolerance)
-    newton%settings%step_tolerance = max(wanted%step_tolerance, rough%step_tolerance)
-    newton%settings%maximum_iterations = min(wanted%maximum_iterations, rough%maximum_iterations)
-    call set_hardness(bearing, bearing%pad(1)%foil%softest())
-    call set_adhesion(bearing, 1.0_wp)
+    call soften(bearing, newton)
     call find_position(bearing, newton, target, soft, report)
     force = bearing%reaction()
     early = contacts%release == before .or. (contacts%release == by_load .and. norm2(target%load(:2)) > norm2(force(1:2)))
@@ -103,14 +95,7 @@ contains
     if (.not. early .and. (report%converged() .or. .not. report%shaft_fixed)) then
       call lead_contacts(bearing, newton, releasing, contacts, report)
     end if
-    call set_adhesion(bearing, 0.0_wp)
-    real_contacts = .false.
-    if (report%converged() .or. .not. report%shaft_fixed) then
-      call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
-    end if
-    newton%settings = wanted
-    call set_hardness(bearing, 1.0_wp)
-    if (report%ending%kind == ending_touch_down) report%ending = path_lost(report%reason()) ! with soft contacts
+    call harden(bearing, newton, contacts, wanted, report, real_contacts)
     if (report%converged()) then
       newton%settings%straight_steps = rough%straight_steps
       call solve_at(bearing, newton, target, .false., settings, report)
@@ -119,6 +104,73 @@ contains
     end if
     report%shaft_fixed = .not. real_contacts ! not a state of this scene
   end subroutine approach
+
+  !> A runner held at a point, brought from rest to speed on soft two-way contacts, which are released and stiffened there to the
+  !> scene's.
+  subroutine hold_softly(bearing, newton, held, settings, report)
+    type(bearing_system_type), target, intent(inout) :: bearing !! pads and runner
+    type(newton_type), target, intent(inout) :: newton !! its solver
+    type(operating_point_type), intent(in) :: held   !! where it is held
+    type(path_settings_type), intent(in) :: settings !! limits
+    type(path_report_type), intent(out) :: report !! how it ended
+    type(newton_settings_type) :: wanted
+    logical :: real_contacts
+
+    wanted = newton%settings
+    call soften(bearing, newton)
+    call put_at_rest(bearing, held)
+    call follow_path(bearing, newton, held, 1.0_wp, soft_settings(bearing, settings), report)
+    if (report%converged()) call lead_contacts(bearing, newton, releasing, usual_contacts, report)
+    call harden(bearing, newton, usual_contacts, wanted, report, real_contacts)
+    if (report%converged()) call solve_at(bearing, newton, held, .true., settings, report)
+    report%shaft_fixed = .true.
+  end subroutine hold_softly
+
+  !> Limits of a path with soft contacts.
+  pure function soft_settings(bearing, settings) result(soft)
+    type(bearing_system_type), intent(in) :: bearing
+    type(path_settings_type), intent(in) :: settings !! limits of the start
+    type(path_settings_type) :: soft
+
+    soft = settings
+    soft%look_for_folds = .false. ! they would be those of soft contacts
+    soft%touch_down_gap = max(settings%touch_down_gap, closing_gap*bearing%clearance) ! from where hard ones go on
+    soft%most_cuts = most_soft_cuts
+  end function soft_settings
+
+  !> Makes all contacts soft two-way ones, which Newton's method need not meet closely.
+  subroutine soften(bearing, newton)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+
+    associate (settings => newton%settings)
+      settings%straight_steps = rough%straight_steps
+      settings%residual_tolerance = max(settings%residual_tolerance, rough%residual_tolerance)
+      settings%step_tolerance = max(settings%step_tolerance, rough%step_tolerance)
+      settings%maximum_iterations = min(settings%maximum_iterations, rough%maximum_iterations)
+    end associate
+    call set_hardness(bearing, bearing%pad(1)%foil%softest())
+    call set_adhesion(bearing, 1.0_wp)
+  end subroutine soften
+
+  !> Stiffens contacts to the scene's, where there is an answer to do so from.
+  subroutine harden(bearing, newton, contacts, wanted, report, real_contacts)
+    type(bearing_system_type), target, intent(inout) :: bearing
+    type(newton_type), target, intent(inout) :: newton
+    type(soft_contacts_type), intent(in) :: contacts
+    type(newton_settings_type), intent(in) :: wanted !! of the scene
+    type(path_report_type), intent(inout) :: report !! so far; of failure where contacts do not get so far
+    logical, intent(out) :: real_contacts !! the state is one of the scene
+
+    call set_adhesion(bearing, 0.0_wp)
+    real_contacts = .false.
+    if (report%converged() .or. .not. report%shaft_fixed) then
+      call lead_contacts(bearing, newton, stiffening, contacts, report, real_contacts)
+    end if
+    newton%settings = wanted
+    call set_hardness(bearing, 1.0_wp)
+    if (report%ending%kind == ending_touch_down) report%ending = path_lost(report%reason()) ! with soft contacts
+  end subroutine harden
 
   !> Releases contacts, or raises their stiffness to the scene's, at the bearing's present point and by
   !> decades. A report of success becomes one of failure where that does not succeed.
