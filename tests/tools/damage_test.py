@@ -186,7 +186,7 @@ class DamageTest(unittest.TestCase):
             for name, content in self.files.items():
                 (place/name.replace("case", "rigid_slit")).write_bytes(content[:len(content)//2])
             (place/"rigid_slit.nml").write_text(text, encoding="utf-8")
-            (place/"run.json").write_text(json.dumps({"status": 0, "said": ""}), encoding="utf-8")
+            (place/"run.json").write_text(json.dumps({"status": 0, "said": "", "program": runs.program}), encoding="utf-8")
             return runs.run("rigid_slit").history
 
         said = io.StringIO()
