@@ -125,7 +125,8 @@ contains
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)
       call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
-      call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present, scene%model%foil == foil_shell)
+      call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present, &
+                            scene%model%foil == foil_shell)
       call read_output_case(keys, scene%output)
       call read_sensitivity_case(keys, scene%sensitivity, analysis)
       call read_accuracy_case(keys, scene%accuracy, analysis)

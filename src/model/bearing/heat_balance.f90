@@ -1,11 +1,13 @@
 !> Whether the heat of a bearing can leave it, whatever its temperature.
 !>
-!> Gas and walls at one temperature T: what the film makes by its drag grows with the viscosity of the gas, what the gas carries
-!> away shrinks with its density, and what goes through walls grows with T. Where the first exceeds the others together at
-!> every T up to a bound there is no steady state below that bound.
+!> Gas and walls at one temperature T: what the film makes by its drag grows with the viscosity of
+!> the gas, what the gas carries away shrinks with its density, and what goes through walls grows
+!> with T. Where the first exceeds the others together at every T up to a bound there is no steady
+!> state below that bound.
 !>
 !> $$ Q(T) = Q_a \frac{\mu(T)}{\mu_a}, \quad
-!>    \Phi(T) = c_p \dot m_a \frac{T_a}{T} (T - T_a) + G_s (T - T_s) + G_f (T - T_b) + w c_p (T - T_c) $$
+!>    \Phi(T) = c_p \dot m_a \frac{T_a}{T} (T - T_a) + G_s (T - T_s) + G_f (T - T_b)
+!>    + w c_p (T - T_c) $$
 module gfb_heat_balance
   use gfb_kinds, only: wp
   use gfb_heated_film, only: relative_viscosity, wall_given, wall_fin
@@ -46,13 +48,15 @@ contains
     if (heat%sleeve%kind == wall_given) then
       out = out + through*(temperature - heat%sleeve%temperature)
     else if (through > 0.0_wp) then
-      out = out + through*heat%sleeve%conductance/(through + heat%sleeve%conductance)*(temperature - heat%sleeve%far)
+      through = through*heat%sleeve%conductance/(through + heat%sleeve%conductance)
+      out = out + through*(temperature - heat%sleeve%far)
     end if
-    if (max(heat%channel, heat%channel_sleeve) > 0.0_wp) out = out + heat%cooling*(temperature - heat%cooling_temperature)
+    if (max(heat%channel, heat%channel_sleeve) > 0.0_wp) then
+      out = out + heat%cooling*(temperature - heat%cooling_temperature)
+    end if
   end function heat_let_out
 
-  !> The temperature at which the least of the heat made is left over, and both there; none is where some temperature lets
-  !> all of it out.
+  !> The temperature at which the least of the heat made is left over, and both there.
   pure subroutine find_surplus(heat, film, always, temperature, made, out)
     type(film_heat_type), intent(in) :: heat !! of the bearing
     type(film_work_type), intent(in) :: film !! of all its pads

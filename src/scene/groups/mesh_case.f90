@@ -21,7 +21,8 @@ module gfb_mesh_case
   character(len=*), parameter :: linear_words(*) = [character(len=11) :: &
                                                     'direct', 'out_of_core', 'iterative']
 
-  !> Of a search from nothing: the dearest answers of docs/measured/population.md take 1,242, with shells 834.
+  !> Of a search from nothing: the dearest answers of docs/measured/population.md take 1,242, with
+  !> shells 834.
   integer, parameter :: usual_factorizations = 1500, usual_of_shells = 900
 
   !> Tolerances and limits.
@@ -80,7 +81,8 @@ contains
     call keys%integer_key('maximum_factorizations', solver%maximum_factorizations, &
                           'factorizations, of all meshes, after which a search from '// &
                           'nothing gives up', &
-                          from_to(1.0_wp, most_iterations), default=text(usual_factorizations)//', with shells '//text(usual_of_shells))
+                          from_to(1.0_wp, most_iterations), &
+                          default=text(usual_factorizations)//', with shells '//text(usual_of_shells))
     call keys%real_key('smallest_load_step', solver%smallest_load_step, '1', &
                        'smallest load step, over the whole path, before the path is given up', &
                        between(0.0_wp, 1.0_wp))

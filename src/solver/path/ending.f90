@@ -86,7 +86,8 @@ contains
   !> Whether the path ended for a cause in the bearing, rather than in Newton's method.
   elemental logical function has_cause(self) result(has)
     class(ending_type), intent(in) :: self !! of a path
-    has = any(self%kind == [ending_touch_down, ending_fold, ending_emptied, ending_suction, ending_heated])
+    has = any(self%kind == [ending_touch_down, ending_fold, ending_emptied, ending_suction, &
+                            ending_heated])
   end function has_cause
 
   !> An ending with its words. GNU Fortran 12 loses the memory of words that are put together
@@ -182,8 +183,9 @@ contains
     type(ending_type) :: ending
 
     ending = ending_of(ending_heated, 'no steady temperature below '//text(hottest, 4)// &
-                         ' K (thermal runaway): at '//text(temperature, 3)//' K, where the most of it leaves, the film makes '// &
-                         text(made, 3)//' W of heat and gas and walls take '//text(out, 3)//' W')
+                         ' K (thermal runaway): at '//text(temperature, 3)// &
+                         ' K, where the most of it leaves, the film makes '//text(made, 3)// &
+                         ' W of heat and gas and walls take '//text(out, 3)//' W')
   end function path_heats_up
 
   !> A signal asks for the end, or all work that is allowed is done: nothing has been shown.
@@ -212,8 +214,8 @@ contains
     self%temperature = [self%temperature(2:), temperature]
   end subroutine add_temperature
 
-  !> Whether the path turns back before a place where there was no answer: the parabola through the last three answers, the
-  !> path's parameter over the temperature, has its highest point short of it.
+  !> Whether the path turns back before a place where there was no answer: the parabola through the
+  !> last three answers, the path's parameter over the temperature, has its highest point short of it.
   pure logical function turns(self, failed)
     class(heat_trail_type), intent(in) :: self !! the trail
     real(wp), intent(in) :: failed !! that place [1]
@@ -226,8 +228,9 @@ contains
       second = (at(3) - at(2))/(t(3) - t(2))
       bend = (second - first)/(t(3) - t(1))
       if (.not. bend < 0.0_wp) return
-      top = t(3) - 0.5_wp*(second + bend*(t(3) - t(2)))/bend ! where the slope, second + bend (t3 - t2) at t3, is none
-      turns = at(3) + (second + bend*(t(3) - t(2)))*(top - t(3)) + bend*(top - t(3))**2 < failed
+      second = second + bend*(t(3) - t(2)) ! the slope at the last one
+      top = t(3) - 0.5_wp*second/bend      ! where it is none
+      turns = at(3) + second*(top - t(3)) + bend*(top - t(3))**2 < failed
     end associate
   end function turns
 
