@@ -13,7 +13,7 @@ module gfb_run_groups
   use gfb_scene, only: scene_type
   use gfb_case_file, only: summary_text
   use gfb_text_file, only: table_member_type, write_table_file, write_unfinished_text
-  use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished
+  use gfb_file_set, only: unfinished_file_type, case_lock_type, publish, drop_unfinished, lock_case, unlock_case
   use gfb_result_file, only: result_file_type
   use gfb_signals, only: stop_words, stop_status, agree_on_signal, agreed_signal
   use gfb_petsc_session, only: wall_time, stop_is_asked
@@ -52,6 +52,8 @@ contains
     type(archive_type) :: mine
     type(table_member_type), allocatable :: members(:)
     type(error_type), allocatable :: error
+    type(case_lock_type) :: lock !! of the table, on the first rank
+    character(len=:), allocatable :: left
     type(run_log_type) :: log
     integer :: number
 
@@ -60,6 +62,16 @@ contains
     call log%line(text(size(scenes))//' cases, results go to '//context%folder//', '//text(pool%ranks)// &
                   ' rank(s) in '//text(pool%groups)//' group(s), a log for each case as CASE.log')
     status = 0
+    if (pool%rank == 0) then
+      call lock_case(context%folder, name, lock, left, error)
+      if (left /= '') call log%warning(left)
+      if (allocated(error)) then
+        call log%complaint(error%message)
+        status = error%status
+      end if
+    end if
+    status = pool%largest(status)
+    if (status /= 0) return
     allocate (members(size(scenes)))
     pool%total = size(scenes)
     call pool%next_task(number)
@@ -77,6 +89,7 @@ contains
         call log%complaint(error%message)
         status = max(status, error%status)
       end if
+      call unlock_case(lock)
     end if
     status = pool%largest(status)
   end subroutine run_scene_table

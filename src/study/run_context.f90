@@ -58,9 +58,12 @@ contains
     class(run_context_type), intent(inout) :: self !! the context
     character(len=*), intent(in) :: name !! of the case
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    character(len=:), allocatable :: left
 
-    if (this_rank() == 0) call lock_case(self%folder, name, self%lock, error)
+    left = ''
+    if (this_rank() == 0) call lock_case(self%folder, name, self%lock, left, error)
     call share_failure(error)
+    if (left /= '') call self%log%warning(left)
   end subroutine take_case
 
   !> Gives the files of a case back.

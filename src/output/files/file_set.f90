@@ -27,14 +27,15 @@ module gfb_file_set
     end subroutine c_remove_surfaces
   end interface
 
-  integer, parameter :: longest_path = 4096 !! of Linux, with the closing zero
+  integer, parameter :: longest_name = 256 !! of a file on Linux, with the closing zero
   !> longest of the endings of a case's files
   character(len=*), parameter :: longest_ending = '.unconverged.bump_foil.steps.vtkhdf'
 
   !> A file that is written and not yet visible.
   type, public :: unfinished_file_type
     character(len=:), allocatable :: path          !! that it is to get
-    character(len=:), allocatable, private :: name !! that it has; not allocated: it was not written
+    !> that it has, in the same folder; not allocated: it was not written
+    character(len=:), allocatable, private :: name
     integer(c_int), private :: descriptor = -1
   end type unfinished_file_type
 
@@ -59,10 +60,10 @@ module gfb_file_set
       integer(c_int) :: status
     end function c_write_unfinished
 
-    subroutine c_drop_unfinished(name, file) bind(c, name='gfb_drop_unfinished')
+    subroutine c_drop_unfinished(folder, name, file) bind(c, name='gfb_drop_unfinished')
       import :: c_char, c_int
       implicit none (type, external)
-      character(kind=c_char), intent(in) :: name(*)
+      character(kind=c_char), intent(in) :: folder(*), name(*)
       integer(c_int), value :: file
     end subroutine c_drop_unfinished
 
@@ -77,11 +78,21 @@ module gfb_file_set
       integer(c_int) :: status
     end function c_publish
 
-    subroutine c_clear_folder(folder) bind(c, name='gfb_clear_folder')
-      import :: c_char
+    subroutine c_clear_folder(folder, stem, left, name, room) bind(c, name='gfb_clear_folder')
+      import :: c_char, c_int, c_size_t
       implicit none (type, external)
-      character(kind=c_char), intent(in) :: folder(*)
+      character(kind=c_char), intent(in) :: folder(*), stem(*)
+      integer(c_int), intent(out) :: left
+      character(kind=c_char), intent(out) :: name(*)
+      integer(c_size_t), value :: room
     end subroutine c_clear_folder
+
+    function c_has_line(path, line) result(found) bind(c, name='gfb_has_line')
+      import :: c_char, c_int
+      implicit none (type, external)
+      character(kind=c_char), intent(in) :: path(*), line(*)
+      integer(c_int) :: found
+    end function c_has_line
 
     function c_lock_case(name, file) result(status) bind(c, name='gfb_lock_case')
       import :: c_char, c_int
@@ -144,22 +155,11 @@ contains
     truth = says(stem, 'converged = true')
   end function has_answer
 
-  !> Whether a summary is there and has a line.
+  !> Whether a summary is there, as a plain file, and has a line.
   logical function says(stem, line) result(truth)
     character(len=*), intent(in) :: stem !! folder and name of the summary
     character(len=*), intent(in) :: line
-    character(len=40) :: words
-    integer :: unit, status
-
-    truth = .false.
-    open (newunit=unit, file=stem//'.summary', action='read', status='old', iostat=status)
-    if (status /= 0) return
-    do while (.not. truth)
-      read (unit, '(a)', iostat=status) words
-      if (status /= 0) exit
-      truth = words == line
-    end do
-    close (unit)
+    truth = c_has_line(stem//'.summary'//c_null_char, line//c_null_char) == 1
   end function says
 
   !> Writes a file that `publish` is to make visible.
@@ -169,7 +169,7 @@ contains
     logical, intent(in) :: sealed !! a checksum follows the bytes
     type(unfinished_file_type), intent(out) :: file !! that was written
     integer, intent(out) :: status !! 0, or the system's error
-    character(kind=c_char) :: name(longest_path)
+    character(kind=c_char) :: name(longest_name)
     integer(c_int8_t), target :: nothing(1)
     type(c_ptr) :: address
 
@@ -200,7 +200,7 @@ contains
                   'written', status_machine)
         return
       end if
-      names = names//files(i)%name//c_null_char//files(i)%path//c_null_char
+      names = names//files(i)%name//c_null_char//bare_name(files(i)%path)//c_null_char
     end do
     if (size(files) == 0) return
     status = c_publish(folder_of(files(1)%path)//c_null_char, size(files, kind=c_int), names, &
@@ -221,7 +221,8 @@ contains
     type(unfinished_file_type), intent(inout) :: file !! not used any more
 
     if (.not. allocated(file%name)) return
-    call c_drop_unfinished(file%name//c_null_char, file%descriptor)
+    call c_drop_unfinished(folder_of(file%path)//c_null_char, file%name//c_null_char, &
+                           file%descriptor)
     deallocate (file%name)
   end subroutine drop_unfinished
 
@@ -246,43 +247,78 @@ contains
 
   !> Takes a case for this run, and clears what dead runs have left in the folder.
   !>
-  !> Fails where another run has it, and where names of its files would be too long.
-  subroutine lock_case(folder, name, lock, error)
+  !> Fails where another run has it, where the lock's place is taken, and where names of its files
+  !> would be too long.
+  subroutine lock_case(folder, name, lock, left, error)
     character(len=*), intent(in) :: folder !! where its files go
     character(len=*), intent(in) :: name !! of the case
     type(case_lock_type), intent(out) :: lock !! to be given back
+    character(len=:), allocatable, intent(out) :: left !! what was not cleared, in words, or empty
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
-    integer(c_int) :: longest_name, longest
-    integer :: too_long, status
+    integer :: status
 
-    call c_name_limits(folder//c_null_char, longest_name, longest)
+    left = ''
+    call check_lengths(folder, name, error)
+    if (allocated(error)) return
+    lock%name = folder//'/.gfb-lock-'//short_mark(name)
+    status = int(c_lock_case(lock%name//c_null_char, lock%descriptor))
+    if (status == 0) then
+      left = lists_left(folder, name)
+      return
+    end if
+    select case (status)
+    case (-1)
+      call fail(error, folder//'/'//name//': another run of this case writes its results here; '// &
+                'wait for it, or give another folder with --output', status_machine)
+    case (-2)
+      call fail(error, lock%name//': no plain file stands in the place of the case''s lock; '// &
+                'remove it, or give another folder with --output', status_machine)
+    case default
+      call fail(error, folder//': results cannot be written to this folder: '// &
+                error_words(status), status_machine)
+    end select
+    deallocate (lock%name)
+  end subroutine lock_case
+
+  !> Whether names and paths of a case's files are short enough.
+  !>
+  !> Fails where they are not.
+  subroutine check_lengths(folder, name, error)
+    character(len=*), intent(in) :: folder, name !! where its files go; of the case
+    type(error_type), allocatable, intent(out) :: error
+    integer(c_int) :: longest_name, longest_path
+    integer :: too_long
+
+    call c_name_limits(folder//c_null_char, longest_name, longest_path)
     too_long = len(name//longest_ending) - int(longest_name)
     if (too_long > 0) then
       call fail(error, name//': the name of the case is too long by '//text(too_long)// &
                 ' characters: its files are to be called '//name//longest_ending//' and the like')
       return
     end if
-    too_long = len(folder//'/'//name//longest_ending) - int(longest)
+    too_long = len(folder//'/'//name//longest_ending) - int(longest_path)
     if (too_long > 0) then
       call fail(error, folder//': the path of the results is too long by '//text(too_long)// &
                 ' characters, with names such as '//name//longest_ending)
-      return
     end if
-    lock%name = folder//'/.gfb-lock-'//short_mark(name)
-    status = int(c_lock_case(lock%name//c_null_char, lock%descriptor))
-    if (status == 0) then
-      call c_clear_folder(folder//c_null_char)
-      return
-    end if
-    deallocate (lock%name)
-    if (status < 0) then
-      call fail(error, folder//'/'//name//': another run of this case writes its results here; '// &
-                'wait for it, or give another folder with --output', status_machine)
-    else
-      call fail(error, folder//': results cannot be written to this folder: '// &
-                error_words(status), status_machine)
-    end if
-  end subroutine lock_case
+  end subroutine check_lengths
+
+  !> Clears what dead runs have left; says which lists of theirs, or of others, stay.
+  function lists_left(folder, name) result(words)
+    character(len=*), intent(in) :: folder, name !! where the case's files go; of the case
+    character(len=:), allocatable :: words !! empty where none stays
+    character(kind=c_char) :: first(longest_name)
+    integer(c_int) :: left
+
+    call c_clear_folder(folder//c_null_char, name//c_null_char, left, first, &
+                        size(first, kind=c_size_t))
+    words = ''
+    if (left == 0) return
+    words = folder//'/'//words_of(first)
+    if (left > 1) words = words//' and '//text(int(left) - 1)//' more'
+    words = words//': no list of files that a run of this case has left: not obeyed, stays '// &
+      'as it is; where a run of another case was killed, its next run finishes it'
+  end function lists_left
 
   !> Gives a case back.
   subroutine unlock_case(lock)
@@ -328,6 +364,13 @@ contains
     folder = '.'
     if (slash > 0) folder = path(:slash)
   end function folder_of
+
+  !> The rest of a path.
+  pure function bare_name(path) result(name)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: name
+    name = path(index(path, '/', back=.true.) + 1:)
+  end function bare_name
 
   !> A short word for a name of any length (the hash FNV-1a).
   pure function short_mark(name) result(mark)

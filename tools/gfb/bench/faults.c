@@ -100,37 +100,69 @@ int open(const char *path, int flags, ...)
   return next(path, flags, mode);
 }
 
-int rename(const char *old, const char *new)
+int openat(int folder, const char *name, int flags, ...)
 {
-  NEXT(int, "rename", const char *, const char *);
-  if (is_inside(old) && fails(0)) {
+  mode_t  mode = 0;
+  va_list more;
+  NEXT(int, "openat", int, const char *, int, ...);
+
+  if (flags & O_CREAT) {
+    va_start(more, flags);
+    mode = va_arg(more, mode_t);
+    va_end(more);
+    if (is_of_folder(folder) && fails(1)) {
+      errno = ENOSPC;
+      return -1;
+    }
+  }
+  return next(folder, name, flags, mode);
+}
+
+int renameat(int from, const char *old, int to, const char *new)
+{
+  NEXT(int, "renameat", int, const char *, int, const char *);
+  if (is_of_folder(from) && fails(0)) {
     errno = EIO;
     return -1;
   }
-  return next(old, new);
+  return next(from, old, to, new);
 }
 
-int link(const char *old, const char *new)
+int linkat(int from, const char *old, int to, const char *new, int flags)
 {
   const char *links = getenv("GFB_FAULT_LINKS");
-  NEXT(int, "link", const char *, const char *);
+  NEXT(int, "linkat", int, const char *, int, const char *, int);
 
-  if (is_inside(old) && fails(1)) {
+  if (is_of_folder(from) && fails(1)) {
     errno = ENOSPC;
     return -1;
   }
-  if (is_inside(old) && links && strcmp(links, "none") == 0) {
+  if (is_of_folder(from) && links && strcmp(links, "none") == 0) {
     errno = EPERM;
     return -1;
   }
-  return next(old, new);
+  return next(from, old, to, new, flags);
+}
+
+static int counts_removals(void)
+{
+  const char *kind = getenv("GFB_FAULT_KIND");
+
+  return kind && strcmp(kind, "kill") == 0;
 }
 
 int unlink(const char *path)
 {
-  const char *kind = getenv("GFB_FAULT_KIND");
   NEXT(int, "unlink", const char *);
 
-  if (is_inside(path) && kind && strcmp(kind, "kill") == 0) fails(0);
+  if (is_inside(path) && counts_removals()) fails(0);
   return next(path);
+}
+
+int unlinkat(int folder, const char *name, int flags)
+{
+  NEXT(int, "unlinkat", int, const char *, int);
+
+  if (is_of_folder(folder) && counts_removals()) fails(0);
+  return next(folder, name, flags);
 }

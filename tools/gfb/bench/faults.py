@@ -27,8 +27,8 @@ WORDS = """# Faults on purpose
 A bearing of 32 x 4 elements is run into a folder that holds its results for another load. At each of its operations on files
 in turn (create, write, sync, link, rename) that operation fails, or it and all that need room from then on, or the process is
 killed (at removals, too); again where the file system has no hard links. *Done all the same*: status 0 and the new set whole
-(after a kill: one whole set, once another run has used the folder); *refused*: status 3, a sentence, and the old set whole,
-to which nothing was added; *wrong*: anything else, such as a crash, a mixed set, a file left behind. `tools/bench faults
+(after a kill: one whole set, once another run of the case has begun, though that is refused); *refused*: status 3, a sentence,
+and the old set whole, to which nothing was added; *wrong*: anything else, such as a crash, a mixed set, a file left behind. `tools/bench faults
 --page` writes this page; [failures.md](../manual/failures.md) says what to expect.
 
 """
@@ -180,12 +180,13 @@ class Faults:
                    refused, wrong)
 
     def after_kill(self, place, status):
-        """A run of another case finishes or clears what a killed one has left; the set is one."""
+        """The case's next run finishes or clears what a killed one has left, though it is refused itself; the set is one."""
         if status != -signal.SIGKILL:
             return f"status {status}"
-        shutil.copy(self.folder/"old/case.nml", self.folder/"other.nml")
-        status, complaint = call(self.gfb, self.folder/"other.nml", place)
-        if status != 0:
+        (place/"case.restart.h5").write_text("none", encoding="utf-8")
+        status, complaint = call(self.gfb, self.folder/"new/case.nml", place, "--restart")
+        (place/"case.restart.h5").unlink()
+        if status != 3 or "case.restart.h5" not in complaint:
             return f"the next run: status {status}: {complaint[:200]}"
         try:
             loads = load_of(place)
