@@ -11,6 +11,9 @@
 !> An archive lies in memory: it is sent from one group of ranks to another, or becomes a group of a
 !> restart file (`gfb_restart_file`). Numbers and words are the same on all ranks; of a field each
 !> rank has a block.
+!>
+!> What comes from a file may be anybody's: then each number must be one, and of a size that gfb's
+!> own numbers have; what they say together is judged by whom they belong to.
 module gfb_archive
   use gfb_kinds, only: wp, long
   use gfb_text, only: text
@@ -22,6 +25,8 @@ module gfb_archive
   character(len=*), parameter :: missing = ' none' !! instead of the shape of what is not allocated
 
   integer, parameter :: most_letters = 60 !! of a line that does not fit, in words
+  !> No number of a state or a result is larger, in any unit; its square is a number all the same.
+  real(wp), parameter, public :: largest_stored = 1.0e30_wp
 
   !> A rank's block of a field.
   type, public :: archive_field_type
@@ -41,6 +46,8 @@ module gfb_archive
     real(wp), allocatable, private :: number(:)          !! with room for more while it saves
     character(len=:), allocatable, private :: letters    !! with room for more while it saves
     integer, private :: numbers_done = 0, letters_done = 0, fields_done = 0 !! saved or restored
+    logical, private :: judged = .false. !! what it restores may be anybody's
+    character(len=:), allocatable, private :: passing !! the line that was taken last
   contains
     procedure :: part
     !> Saves or restores a component whose shape is known; a text is of any length.
@@ -52,21 +59,32 @@ module gfb_archive
     procedure, private :: visit_real, visit_reals, visit_matrix, visit_integer, visit_integers, &
       visit_integer_matrix, visit_logical, visit_text
     procedure, private :: visit_sized_reals, visit_sized_matrix, visit_sized_integers, pass_line
-    procedure, private :: pass_shape, pass_numbers, pass_whole_numbers, add_letters, next_line
+    procedure, private :: pass_shape, pass_numbers, pass_whole_numbers, add_letters, next_line, odd
   end type archive_type
 
 contains
 
   !> Begins to restore.
-  pure subroutine open_archive(numbers, words, archive)
+  pure subroutine open_archive(numbers, words, archive, judged)
     real(wp), intent(in) :: numbers(:) !! as `numbers` gave them, each in its component's unit [SI]
     character(len=*), intent(in) :: words !! as `words` gave them
     type(archive_type), intent(out) :: archive !! restores these, from the first on
+    logical, intent(in), optional :: judged !! they may be anybody's
 
     archive%saves = .false.
     archive%number = numbers
     archive%letters = words
+    archive%passing = ''
+    if (present(judged)) archive%judged = judged
   end subroutine open_archive
+
+  !> Whether numbers are some that a file of gfb's may hold, where the archive is judged.
+  pure logical function are_plain(self, number) result(plain)
+    class(archive_type), intent(in) :: self
+    real(wp), intent(in) :: number(:)
+    plain = .true.
+    if (self%judged) plain = all(abs(number) <= largest_stored) ! not so for NaN
+  end function are_plain
 
   !> What was read must fulfil a condition: the first that it does not is the archive's problem.
   pure subroutine require(self, fulfilled, words)
@@ -196,6 +214,7 @@ contains
     if (self%saves) number = merge(1, 0, value)
     call self%pass_line(name//' logical')
     call self%pass_whole_numbers(1, number)
+    call self%require(number(1) == 0 .or. number(1) == 1, self%odd())
     value = number(1) /= 0
   end subroutine visit_logical
 
@@ -323,6 +342,7 @@ contains
     associate (found => self%field(self%fields_done))
       call self%require(found%name == name .and. all(shape(found%block) == shape(block)), &
                         "the field '"//name//"'")
+      call self%require(are_plain(self, reshape(found%block, [size(found%block)])), self%odd())
       if (.not. self%failed) block = found%block
     end associate
   end subroutine visit_block
@@ -338,6 +358,7 @@ contains
       return
     else if (self%next_line() == line) then
       self%letters_done = self%letters_done + len(line) + 1
+      self%passing = line
     else
       call self%require(.false., misfit(line, self%next_line()))
     end if
@@ -372,7 +393,9 @@ contains
         product(int(extent, long)) <= size(self%number) - self%numbers_done
       call self%require(fits, misfit(start, line))
     end if
-    if (.not. self%failed) self%letters_done = self%letters_done + len(line) + 1
+    if (self%failed) return
+    self%letters_done = self%letters_done + len(line) + 1
+    self%passing = line
   end subroutine pass_shape
 
   !> Adds numbers of any shape, or takes the next ones.
@@ -396,6 +419,9 @@ contains
     else if (last > size(self%number)) then
       call self%require(.false., 'numbers are missing at its end')
       return
+    else if (.not. are_plain(self, self%number(self%numbers_done + 1:last))) then
+      call self%require(.false., self%odd())
+      return
     else
       value = self%number(self%numbers_done + 1:last)
     end if
@@ -413,8 +439,21 @@ contains
     call self%pass_numbers(many, number)
     call self%require(all(abs(number) <= real(huge(value), wp)), & ! none of ours, or NaN
                       'a number that is not whole')
+    if (.not. self%failed) then
+      call self%require(all(abs(number - anint(number)) <= 0.0_wp), 'a number that is not whole')
+    end if
     if (.not. self%failed) value = nint(number)
   end subroutine pass_whole_numbers
+
+  !> Whose numbers are none that gfb writes, in words.
+  pure function odd(self) result(words)
+    class(archive_type), intent(in) :: self !! the archive
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (allocated(self%passing)) words = self%passing(:min(len(self%passing), most_letters))
+    words = "'"//words//"' holds what is no number of gfb's"
+  end function odd
 
   !> Adds to the words.
   pure subroutine add_letters(self, letters)

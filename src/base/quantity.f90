@@ -124,5 +124,9 @@ contains
     call archive%visit('meaning', quantity%meaning)
     call archive%visit('kind', quantity%kind)
     call archive%visit('word', quantity%word)
+    if (archive%saves) return
+    call archive%require(allocated(quantity%name) .and. allocated(quantity%unit) .and. &
+                         allocated(quantity%meaning) .and. allocated(quantity%word), &
+                         'the words of a quantity')
   end subroutine visit_description
 end module gfb_quantity

@@ -12,7 +12,7 @@ module gfb_bearing_record
   use gfb_bearing_answer, only: bearing_answer
   use gfb_newton, only: newton_type
   use gfb_case_file, only: history_row_type, visit_rows
-  use gfb_grid_series, only: grid_series_type, visit_series
+  use gfb_grid_series, only: grid_series_type, visit_series, is_whole
   use gfb_bearing_summary, only: answer_quantities, add_counts
   use gfb_contact_record, only: contact_record_type, record_foil_contacts
   use gfb_dynamics_record, only: dynamics_record_type, visit_dynamics
@@ -159,6 +159,8 @@ contains
     call visit_series(archive, record%series)
     if (archive%saves) return
     call archive%require(size(judged) == 1, 'the row of what else is known')
-    if (.not. archive%failed) record%judged = judged(1)%quantity
+    if (archive%failed) return
+    call archive%require(is_whole(record%series), 'the series of surfaces')
+    record%judged = judged(1)%quantity
   end subroutine visit_record
 end module gfb_bearing_record

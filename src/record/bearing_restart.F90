@@ -2,23 +2,25 @@
 !> What restart files of bearings hold, in sweeps and over time: the bearing at a point, and all that was recorded.
 module gfb_bearing_restart
   use petscvec
+  use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
+  use gfb_sweep_case, only: sweep_case_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type, visit_bearing
   use gfb_heat_switch, only: visit_frozen
   use gfb_pad_contacts, only: pad_contacts
-  use gfb_newton, only: newton_type, forget_factors, visit_counts
+  use gfb_newton, only: newton_type, forget_factors, visit_counts, imbalance
   use gfb_arc, only: create_arc, visit_arc
   use gfb_continuation, only: fold_path_type, visit_fold_path
   use gfb_grid_series, only: forget_numbers
   use gfb_petsc_session, only: this_rank, wall_time
   use gfb_contact_record, only: visit_contact_record
   use gfb_bearing_record, only: bearing_record_type, visit_record, sweep_name, sweep_unit
-  use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading
+  use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading, refuse_restart, no_answer, slipped_on
   implicit none (type)
   private
   public :: save_bearing, restore_bearing, restore_branch, visit_answer_and_record
@@ -93,6 +95,8 @@ contains
     call end_reading(restart, archive, error)
     record%begun = wall_time() - restart%elapsed
     if (allocated(error) .or. .not. scene%sweep%present) return
+    call judge_point(scene%sweep, restart, newton, record, error)
+    if (allocated(error)) return
     associate (point => restart%step)
       if (scene%sweep%turn_folds .and. point > 1) then
         call log%line('restart: resumed from answer '//text(point)//' of the branch')
@@ -104,6 +108,31 @@ contains
       end if
     end associate
   end subroutine restore_bearing
+
+  !> Whether what was read is the answer of a sweep's point, and as many rows as there are points.
+  !>
+  !> Fails where it is not.
+  subroutine judge_point(sweep, restart, newton, record, error)
+    type(sweep_case_type), intent(in) :: sweep !! what is asked for
+    type(restart_type), intent(in) :: restart !! the file it comes from
+    type(newton_type), intent(inout) :: newton !! of the bearing there
+    type(bearing_record_type), intent(in) :: record !! of the points so far
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    real(wp) :: off !! from an answer
+    integer :: rows
+
+    rows = 0
+    if (allocated(record%history)) rows = size(record%history)
+    if (rows /= restart%step) then
+      call refuse_restart(restart, 'the file is damaged: /step/number is '//text(restart%step)//', the history has '//text(rows)// &
+                          ' rows', error)
+      return
+    end if
+    if (sweep%turn_folds .and. rows > 1) return ! along the branch the contacts are linearised elsewhere
+    off = imbalance(newton)
+    if (off <= merge(slipped_on, no_answer, sweep%friction_memory)) return
+    call refuse_restart(restart, 'the file is damaged at /bearing: its state is no answer (residual '//text(off, 3)//')', error)
+  end subroutine judge_point
 
   !> Resumes the branch where the file has one; otherwise nothing is done.
   !>

@@ -375,10 +375,16 @@ contains
     call archive%visit_sized('coefficient', parts)
     call archive%visit_sized('mode', point%mode)
     if (archive%saves .or. archive%failed) return
-    if (allocated(point%mode)) call archive%require(any(size(point%mode, 1) == [0, mode_numbers]), &
-                                                    'the numbers of a mode')
+    call archive%require(allocated(point%frequency) .and. allocated(parts), 'the coefficients')
+    if (archive%failed) return
     entries = size(parts, 1)/2
     motions = nint(sqrt(real(entries, wp)))
+    call archive%require(size(parts, 1) == 2*motions**2 .and. &
+                         size(parts, 2) == size(point%frequency), 'the coefficients')
+    if (allocated(point%mode)) then
+      call archive%require(any(size(point%mode, 1) == [0, mode_numbers]), 'the modes')
+    end if
+    if (archive%failed) return
     point%coefficient = reshape(cmplx(parts(:entries, :), parts(entries + 1:, :), wp), &
                                 [motions, motions, size(parts, 2)])
   end subroutine visit_point

@@ -16,6 +16,7 @@ module gfb_restart_file
   use gfb_c_library, only: remove_file
   use gfb_petsc_session, only: this_rank, rank_count, any_rank, share_failure, wall_time
   use gfb_scene, only: scene_type
+  use gfb_scene_case, only: analysis_strip
   use gfb_case_file, only: write_quantities
   use gfb_archive, only: archive_type, archive_field_type, open_archive
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file, &
@@ -25,7 +26,7 @@ module gfb_restart_file
   use gfb_division, only: block_ends
   implicit none (type)
   private
-  public :: find_restart, save_restart, read_restart, end_reading, drop_restart, write_archive, read_archive
+  public :: find_restart, save_restart, read_restart, end_reading, refuse_restart, drop_restart, write_archive, read_archive
 
   character(len=1), parameter :: line_end = new_line('a')
 
@@ -42,7 +43,12 @@ module gfb_restart_file
     procedure :: is_due, is_due_after, may_be_written, tell
   end type restart_type
 
-  integer, parameter :: format = 5 !! of the file; the first one had none to say
+  integer, parameter :: format = 6 !! of the file; the first one had none to say
+  !> Root mean square of the scaled residual beyond which a state that was read is no answer: a thousand times what answers
+  !> have [1].
+  real(wp), parameter, public :: no_answer = 1.0e-5_wp
+  !> The same where contacts have carried their slip along since: 2e-4 was seen [1].
+  real(wp), parameter, public :: slipped_on = 1.0e-2_wp
   real(wp), parameter :: between_files = 60.0_wp !! where no number of steps is given [s]
 
 contains
@@ -188,7 +194,7 @@ contains
     type(stored_file_type) :: file
     character(len=:), allocatable :: program, own, difference
     logical :: fits
-    integer :: ranks
+    integer :: ranks, steps(2)
 
     call open_file(restart, file, error)
     if (allocated(error)) return
@@ -213,11 +219,38 @@ contains
     else if (difference /= '') then
       call fail(error, restart%path//': belongs to another scene than '//scene%file//': '//difference// &
                 '; run without --restart to start from the beginning')
+    end if
+    if (allocated(error)) return
+    steps = steps_of(scene)
+    if (steps(2) < steps(1)) then
+      call refuse_restart(restart, 'no run of this scene writes such a file', error)
+    else if (restart%step < steps(1) .or. restart%step > steps(2)) then
+      call refuse_restart(restart, '/step/number is '//text(restart%step)//', the run has '//text(steps(1))//' to '// &
+                          text(steps(2)), error)
+    else if (.not. restart%elapsed >= 0.0_wp) then
+      call refuse_restart(restart, '/step/elapsed is negative', error)
     else if (ranks /= rank_count()) then
       call log%line('restart: '//restart%path//' was written by '//text(ranks)//' rank(s); digits of '// &
                     'the answer beyond the tolerances may differ from theirs')
     end if
   end subroutine compare_origin
+
+  !> The first and the last step or point after which a run of a scene may be resumed; none where the last is before the first.
+  pure function steps_of(scene) result(steps)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    integer :: steps(2)
+
+    steps = [1, 0]
+    if (scene%general%analysis == analysis_strip) then
+      steps(2) = scene%strip_load%steps_up + scene%strip_load%steps_down
+    else if (scene%transient%present) then
+      steps(2) = huge(steps)
+    else if (scene%sweep%present .and. .not. scene%periodic%present) then
+      if (scene%sweep%hold_position) steps(1) = 0
+      steps(2) = size(scene%sweep%values)
+      if (scene%sweep%turn_folds) steps(2) = huge(steps) ! answers along the branch
+    end if
+  end function steps_of
 
   !> Writes the file; it replaces the one before when it is whole. A run does not end because it cannot be written.
   subroutine save_restart(scene, restart, log, step, elapsed, archive)
@@ -288,7 +321,7 @@ contains
     call archive%finish()
     why = 'the file is damaged at /'//archive%name
     if (archive%failed) why = why//': '//archive%problem
-    if (any_rank(archive%failed)) call refuse(restart, why, error)
+    if (any_rank(archive%failed)) call refuse_restart(restart, why, error)
   end subroutine end_reading
 
   !> Opens the file from which the run is resumed.
@@ -316,16 +349,16 @@ contains
     why = 'the file is damaged'
     if (file%lost /= '') why = why//': '//file%lost//' cannot be read'
     if (file%refused /= '') why = file%refused
-    if (any_rank(file%failed)) call refuse(restart, why, error)
+    if (any_rank(file%failed)) call refuse_restart(restart, why, error)
   end subroutine close_file
 
   !> Says why a file does not serve.
-  subroutine refuse(restart, why, error)
-    type(restart_type), intent(in) :: restart
-    character(len=*), intent(in) :: why
-    type(error_type), allocatable, intent(out) :: error
+  subroutine refuse_restart(restart, why, error)
+    type(restart_type), intent(in) :: restart !! name of the file
+    character(len=*), intent(in) :: why !! the sentence's middle
+    type(error_type), allocatable, intent(out) :: error !! it
     call fail(error, restart%path//': '//why//'; run without --restart to start from the beginning', status_machine)
-  end subroutine refuse
+  end subroutine refuse_restart
 
   !> Removes the file of a run that has ended well.
   subroutine drop_restart(restart)
@@ -374,7 +407,7 @@ contains
     integer :: at, components, ends(2)
 
     group = '/'//name
-    call open_archive(file%numbers(group//'/numbers'), file%words(group//'/words'), archive)
+    call open_archive(file%numbers(group//'/numbers'), file%words(group//'/words'), archive, judged=.true.)
     archive%name = name
     allocate (archive%field(0))
     fields = ''

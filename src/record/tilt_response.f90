@@ -195,6 +195,8 @@ contains
     call archive%visit('from_equilibrium', response%from_equilibrium)
     call archive%part('equilibrium')
     call visit_answer(archive, response%equilibrium)
+    if (archive%saves) return
+    call archive%require(any(response%axis == [0, 1, 2]), 'the axis of a tilt')
   end subroutine visit_response
 
   !> Lines of the closing block.

@@ -6,6 +6,7 @@ module gfb_heat_switch
   use gfb_archive, only: archive_type
   use gfb_text, only: text
   use gfb_natural_order, only: visit_vector
+  use gfb_petsc_session, only: any_rank
   use gfb_gas_film, only: frozen_heat_type, freeze_film, frozen_fields, frozen_growth
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_heat, only: film_heat_type, growth_of, temperatures_at
@@ -94,8 +95,10 @@ contains
     Vec :: vector
     PetscErrorCode :: ierr
     integer :: i, k
+    logical :: cold
 
     if (.not. allocated(bearing%pad(1)%film%frozen)) return
+    cold = .false.
     PetscCallA(VecDuplicate(bearing%state, vector, ierr))
     do k = 1, size(name)
       value = 0.0_wp
@@ -115,9 +118,17 @@ contains
       end do
     end do
     PetscCallA(VecDestroy(vector, ierr))
+    if (.not. archive%saves) then
+      do i = 1, size(bearing%pad)
+        cold = cold .or. any(bearing%pad(i)%film%frozen%field(:, :frozen_growth - 1) <= 0.0_wp)
+      end do
+      call archive%require(.not. any_rank(cold), 'a temperature')
+    end if
     do i = 1, size(bearing%pad)
       modulus = bearing%pad(i)%foil%modulus
       call archive%visit('modulus_'//text(i), modulus)
+      if (.not. archive%saves) call archive%require(all(modulus > 0.0_wp), 'a modulus')
+      if (archive%failed) return
       if (.not. archive%saves) call bearing%pad(i)%foil%soften(modulus)
     end do
     if (archive%saves) return

@@ -14,7 +14,7 @@ module gfb_strip_answer
   implicit none (type)
   private
   public :: start_recorder, resume_recorder, read_answer, destroy_recorder
-  public :: visit_answer
+  public :: visit_answer, differs_from
 
   integer, parameter :: radial = 2, axial = 3
   integer, parameter :: states = state_slip - state_open + 1
@@ -111,6 +111,23 @@ contains
     recorder%last = answer
     PetscCallA(VecCopy(strip%state, recorder%state, ierr))
   end subroutine read_answer
+
+  !> Whether an answer is that of another state: travel of the plate, deflections, strain energy.
+  logical function differs_from(strip, bumps, answer) result(differs)
+    type(strip_system_type), intent(inout) :: strip !! at its state
+    integer, intent(in) :: bumps !! number of bumps
+    type(strip_answer_type), intent(in) :: answer !! that may be another state's
+    real(wp), parameter :: rounding = 1.0e-6_wp !! relative
+    real(wp) :: here(bumps + 2), there(bumps + 2), widths
+
+    widths = merge(2.0_wp, 1.0_wp, strip%foil%mesh%half) ! whole over solved
+    here = [strip%plate_travel(), crest_deflections(strip, bumps), widths*strip%strain_energy()]
+    there = [answer%travel, answer%deflection, answer%strain_energy]
+    associate (size => max(maxval(abs(there(:bumps + 1))), maxval(abs(here(:bumps + 1)))), last => bumps + 2)
+      differs = any(abs(here(:bumps + 1) - there(:bumps + 1)) > rounding*size)
+      differs = differs .or. abs(here(last) - there(last)) > rounding*max(abs(here(last)), abs(there(last)))
+    end associate
+  end function differs_from
 
   !> Mean deflection of each crest line towards the sleeve [m].
   function crest_deflections(strip, bumps) result(deflection)

@@ -316,6 +316,9 @@ contains
       end if
       call archive%visit_sized('row', number)
       call archive%visit_sized('new', new)
+      if (.not. archive%saves) then
+        call archive%require(allocated(number) .and. allocated(new), 'a row')
+      end if
       if (.not. archive%saves .and. .not. archive%failed) then
         allocate (rows(row)%quantity(size(number)))
         known = min(known, size(number))

@@ -5,6 +5,7 @@ module gfb_stored_file
   use mpi, only: MPI_CHARACTER, MPI_Bcast
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail, status_machine
+  use gfb_archive, only: largest_stored
   use gfb_file_set, only: check_seal
   use gfb_hdf5_text, only: read_text
   implicit none (type, external)
@@ -115,16 +116,29 @@ contains
     if (status /= 0) return
     address = c_loc(value)
     call h5dread_f(dataset, H5T_NATIVE_DOUBLE, address, status)
-    if (status == 0) number = value
-    if (status /= 0) call self%lose(path)
+    if (status /= 0) then
+      call self%lose(path)
+    else if (.not. abs(value) <= largest_stored) then
+      call self%refuse(path, 'no number of gfb''s')
+    else
+      number = value
+    end if
     call h5dclose_f(dataset, ignored)
   end function scalar
 
-  !> One whole number.
+  !> One whole number; 0 where it is none.
   integer function whole_number(self, path) result(number)
     class(stored_file_type), intent(inout) :: self !! the file
     character(len=*), intent(in) :: path !! of the file, or of what is in it
-    number = nint(self%scalar(path))
+    real(wp) :: value
+
+    number = 0
+    value = self%scalar(path)
+    if (abs(value) > real(huge(number), wp) .or. abs(value - anint(value)) > 0.0_wp) then
+      call self%refuse(path, 'no whole number')
+    else
+      number = nint(value)
+    end if
   end function whole_number
 
   !> A list of numbers, all of it on all ranks.

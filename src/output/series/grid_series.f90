@@ -19,7 +19,7 @@ module gfb_grid_series
   implicit none (type, external)
   private
   public :: write_series_file, begin_step, add_surface, cut_series, join_series, forget_numbers, &
-            visit_series
+            visit_series, is_whole
 
   character(len=*), parameter :: steps = grid_group//'/Steps'
 
@@ -512,6 +512,61 @@ contains
       end associate
     end do
   end subroutine visit_series
+
+  !> Whether what a series has fits together, as where it was read back.
+  pure logical function is_whole(series) result(whole)
+    type(grid_series_type), intent(in) :: series !! with a step or without
+    integer :: i
+
+    whole = .true.
+    if (.not. allocated(series%value)) return
+    whole = allocated(series%name) .and. allocated(series%unit) .and. allocated(series%surface)
+    if (.not. whole) return
+    do i = 1, size(series%surface)
+      whole = whole .and. surface_is_whole(series%surface(i), size(series%value))
+    end do
+  end function is_whole
+
+  !> The same of a surface: grids with points and cells, one of them at each step, and fields on it.
+  pure logical function surface_is_whole(surface, many) result(whole)
+    type(surface_series_type), intent(in) :: surface
+    integer, intent(in) :: many !! steps
+    integer(long) :: ends(2)
+    integer :: i
+
+    whole = allocated(surface%name) .and. allocated(surface%points) .and. &
+            allocated(surface%cells) .and. allocated(surface%grid)
+    if (.not. whole) return
+    whole = size(surface%points) == size(surface%cells) .and. size(surface%grid) == many .and. &
+            all(surface%points >= 0) .and. all(surface%cells >= 0) .and. &
+            all(surface%grid >= 1) .and. all(surface%grid <= size(surface%points)) .and. &
+            size(surface%point%number, 1) == 3 .and. size(surface%cell%number, 1) == corners
+    if (.not. whole) return
+    ends = [sum(int(surface%points, long)), sum(int(surface%cells, long))]
+    whole = all(ends == [surface%point%used, surface%cell%used]) .and. &
+            all(surface%cell%number >= 1.0_wp) .and. &
+            all(surface%cell%number <= real(maxval([surface%points, 0]), wp))
+    do i = 1, size(surface%point_field)
+      whole = whole .and. field_is_whole(surface%point_field(i), surface%points, surface%grid)
+    end do
+    do i = 1, size(surface%cell_field)
+      whole = whole .and. field_is_whole(surface%cell_field(i), surface%cells, surface%grid)
+    end do
+  end function surface_is_whole
+
+  !> The same of a field: each step finds as many entries as its grid has.
+  pure logical function field_is_whole(field, entries, grid) result(whole)
+    type(series_field_type), intent(in) :: field
+    integer, intent(in) :: entries(:), grid(:) !! of each grid; of each step
+
+    whole = allocated(field%name) .and. allocated(field%unit) .and. allocated(field%meaning) .and. &
+            allocated(field%offset)
+    if (.not. whole) return
+    whole = size(field%offset) == size(grid)
+    if (.not. whole) return
+    whole = all(field%offset >= 0) .and. &
+            all(int(field%offset, long) + entries(grid) <= field%value%used)
+  end function field_is_whole
 
   !> Saves or restores fields.
   pure subroutine visit_fields(archive, name, field)

@@ -27,7 +27,7 @@ module gfb_newton
   use gfb_matrix_rows, only: copy_row, row_length
   use gfb_archive, only: archive_type
   use gfb_signals, only: stop_agreed, stop_words
-  use gfb_petsc_session, only: stop_is_asked
+  use gfb_petsc_session, only: stop_is_asked, any_rank
   use gfb_nonlinear_system, only: nonlinear_system_type
   use gfb_direct_solver, only: factor_matrix, factors_by
   use gfb_linear_solver, only: linear_solver_type, choose_solver, begin_solve, judge_start, decide_factors, keep_ready, &
@@ -38,7 +38,7 @@ module gfb_newton
   implicit none (type)
   private
   public :: show_enlargements, create_newton, renew_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, &
-            has_factors, solve_transposed, forget_factors, destroy_newton, visit_counts, newton_report_type, work_bound_type
+            has_factors, solve_transposed, forget_factors, destroy_newton, visit_counts, imbalance, newton_report_type, work_bound_type
 
   !> How a solve ended.
   type, public :: newton_report_type
@@ -529,6 +529,20 @@ contains
     newton%created = .false.
   end subroutine destroy_newton
 
+  !> How far the system's present state is from an answer: root mean square of the scaled residual; huge where that cannot be
+  !> evaluated.
+  real(wp) function imbalance(newton) result(norm)
+    type(newton_type), intent(inout) :: newton !! its solver
+    logical :: valid
+    PetscErrorCode :: ierr
+
+    call newton%system%evaluate(newton%system%state, newton%residual, valid)
+    norm = huge(norm)
+    if (any_rank(.not. valid)) return
+    PetscCallA(VecNorm(newton%residual, NORM_2, norm, ierr))
+    norm = norm/sqrt(newton%unknowns)
+  end function imbalance
+
   !> Saves or restores what was spent.
   pure subroutine visit_counts(archive, newton)
     type(archive_type), intent(inout) :: archive !! that saves or restores
@@ -537,5 +551,7 @@ contains
     call archive%visit('newton_iterations', newton%iterations)
     call archive%visit('factorizations', newton%factorizations)
     call archive%visit('factorizations_before', newton%factorizations_before)
+    if (archive%saves) return
+    call archive%require(min(newton%iterations, newton%factorizations, newton%factorizations_before) >= 0, 'what the solver has spent')
   end subroutine visit_counts
 end module gfb_newton

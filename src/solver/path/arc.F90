@@ -420,6 +420,8 @@ contains
     call visit_vector(archive, 'tangent', order, arc%tangent)
     call visit_vector(archive, 'previous_tangent', order, arc%previous_tangent)
     call visit_vector(archive, 'earlier_tangent', order, arc%earlier_tangent)
+    if (archive%saves) return
+    call archive%require(abs(arc%lambda - arc%path%lambda_of(arc%path%state)) <= 0.0_wp, 'where the branch is')
   end subroutine visit_arc
 
   !> Of it all but the vectors.
@@ -440,5 +442,9 @@ contains
     call archive%visit('steps', arc%steps)
     call archive%visit('turned', arc%turned)
     call visit_counts(archive, arc%newton)
+    if (archive%saves) return
+    call archive%require(min(arc%step, arc%step_limit) > 0.0_wp .and. max(arc%step, arc%step_limit) <= longest_leap .and. &
+                         min(arc%last_length, arc%earlier_step) >= 0.0_wp .and. abs(arc%heading) > 0.0_wp, 'a step of the branch')
+    call archive%require(min(arc%steps, arc%retreats) >= 0 .and. abs(arc%orientation) <= 1, 'a count of the branch')
   end subroutine visit_steps
 end module gfb_arc

@@ -91,6 +91,7 @@ contains
     call visit_point(archive, branch%first)
     call archive%visit('kept', branch%kept)
     call archive%visit('kept_heading', branch%kept_heading)
+    if (.not. archive%saves) call archive%require(branch%kept >= 0 .and. branch%kept <= size(branch%lambda), 'the value kept last')
   end subroutine visit_fold_path
 
   !> Moves the free edge on from an answer, or all of it, until the point is `wanted` ahead on the path, or turns

@@ -28,7 +28,7 @@ module gfb_time_march
   use gfb_newton, only: newton_type, newton_report_type, solve_nearby
   implicit none (type)
   private
-  public :: begin_rubbing, march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past
+  public :: begin_rubbing, march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past, find_misfit
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   integer, parameter :: most_trials = 12 !! of one step
@@ -212,6 +212,46 @@ contains
       PetscCallA(VecDestroy(vector, ierr))
     end subroutine visit_local
   end subroutine visit_springs
+
+  !> What in a march that was read does not fit itself or its states: times and steps, the way of the sleeve, films that are open.
+  subroutine find_misfit(bearing, march, what)
+    type(bearing_system_type), intent(inout) :: bearing !! at the newest state
+    type(march_type), intent(in) :: march !! begun anew, then filled from the file
+    character(len=:), allocatable, intent(out) :: what !! in words; empty where all does
+    real(wp) :: unknown(bearing%local_size()), place(film_forces), velocity(film_forces), weight(0:2), rounding
+    type(operating_point_type) :: here
+    logical :: open
+    integer :: i
+
+    what = ''
+    rounding = sqrt(epsilon(rounding)) ! relative
+    associate (step => march%past_step)
+      if (.not. (march%time > 0.0_wp .and. march%time < march%settings%end_time .and. march%steps > 0)) then
+        what = 'its time'
+      else if (.not. (all(step > 0.0_wp) .and. march%next > 0.0_wp .and. march%step <= march%time*(1.0_wp + rounding)) .or. &
+               max(maxval(step), march%next) > march%settings%end_time .or. abs(march%step - step(1)) > 0.0_wp .or. &
+               march%rejections < 0) then
+        what = 'its steps'
+      end if
+      if (what /= '') return
+      weight = difference_weights(step(1), step(2))
+      velocity = newest_rate(weight, march%place(:, 1), march%place(:, 2:))
+      place = rounding*weight(0)*maxval(abs(march%place), 2)
+      if (any(abs(velocity - march%velocity(:, 1)) > place)) what = 'the rates of the sleeve'
+    end associate
+    do i = 1, kept_times
+      if (i == 1) call bearing%get_unknowns(unknown)
+      if (i > 1) call bearing%get_unknowns(unknown, march%state(i))
+      if (.not. bearing%floats) bearing%point%place(:2) = march%place(:2, i)
+      here = bearing%position(unknown)
+      if (i <= march%steps + 1 .and. any(abs(here%place - march%place(:, i)) > rounding*maxval(abs(march%place)))) then
+        what = 'where the sleeve was' ! before its first step there was none
+      end if
+      open = bearing%is_open_at(unknown)
+      if (.not. open) what = 'a film that is not open'
+    end do
+    if (.not. bearing%floats) bearing%point%place(:2) = march%place(:2, 1)
+  end subroutine find_misfit
 
   !> Goes on from a restart file, which has left the bearing at the newest state, and the march with all but what follows
   !> from its last two states.

@@ -15,15 +15,15 @@ module gfb_strip_study
   use gfb_foil_builder, only: strip_shape, foil_plan_type
   use gfb_strip_system, only: strip_system_type, destroy_strip_system
   use gfb_strip_answer, only: strip_recorder_type, start_recorder, resume_recorder, read_answer, destroy_recorder, &
-                              strip_answer_type
+                              strip_answer_type, differs_from
   use gfb_newton, only: newton_type, newton_report_type, forget_factors, visit_counts, newton_settings_type, create_newton, &
-                        destroy_newton
+                        destroy_newton, imbalance
   use gfb_strip_load_step, only: load_path_type, create_load_path, take_load_step, destroy_load_path, visit_strip
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_contact_record, only: record_contacts, visit_contact_record, add_contact_arrays
   use gfb_strip_summary, only: step_quantities, show_step, show_step_header, answer_quantities, cost_quantities, strip_run_type, &
                                visit_run, strip_companions, show_companions, add_companions
-  use gfb_restart_file, only: save_restart, read_restart, end_reading
+  use gfb_restart_file, only: save_restart, read_restart, end_reading, refuse_restart, slipped_on
   use gfb_reasons, only: reason_type, reason_load_step
   use gfb_outcome, only: add_outcome
   use gfb_run_context, only: run_context_type
@@ -66,7 +66,7 @@ module gfb_strip_study
     procedure :: prepare => prepare_strip, solve => solve_strip, reach => reach_step
     procedure :: record_point => record_step, save_point => save_step, save_stopped
     procedure :: write => write_study, left_out => strip_left_out, discard => discard_strip
-    procedure, private :: save, restore, visit, explain
+    procedure, private :: save, restore, visit, judge, explain
   end type strip_study_type
 
 contains
@@ -215,12 +215,20 @@ contains
     integer, intent(in) :: steps !! that there will be
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(archive_type) :: archive
+    real(wp) :: off
+    logical :: differs
 
     call read_restart(self%context%restart, 'strip', archive, error)
     if (allocated(error)) return
     call self%visit(archive)
     call end_reading(self%context%restart, archive, error)
     if (allocated(error)) return
+    off = imbalance(self%newton)
+    differs = differs_from(self%strip, self%scene%bump_foil%bumps, self%run%last)
+    if (differs .or. .not. off <= slipped_on) then
+      call refuse_restart(self%context%restart, 'the file is damaged at /strip: its state is not the answer of its last step', error)
+      return
+    end if
     call resume_recorder(self%strip, self%run%last, self%recorder)
     call self%context%log%line('restart: resumed from step '//text(self%run%steps)//' of '//text(steps))
   end subroutine restore
@@ -233,9 +241,31 @@ contains
     call visit_strip(archive, self%strip, self%path)
     call visit_counts(archive, self%newton)
     call visit_run(archive, self%run)
+    if (.not. archive%saves) call self%judge(archive)
     if (archive%failed) return
     call visit_contact_record(archive, self%strip%contacts, self%strip%foil%mesh%rows, self%run%steps, self%run%contacts)
   end subroutine visit
+
+  !> Whether the numbers of a run that were read are those after the step of the file.
+  subroutine judge(self, archive)
+    class(strip_study_type), intent(in) :: self !! the load steps
+    type(archive_type), intent(inout) :: archive !! that has restored them
+    real(wp) :: factor
+
+    if (archive%failed) return
+    associate (load => self%scene%strip_load, run => self%run, step => self%context%restart%step)
+      call archive%require(run%steps == step, 'the number of steps')
+      call archive%require(size(run%history) == step, 'a row for each step')
+      factor = load_factor(step, load%steps_up, load%steps_down)
+      call archive%require(max(abs(self%path%at_here - factor), abs(run%last%factor - factor)) <= rounding, 'the load of the last step')
+      call archive%require(self%path%at_before >= 0.0_wp .and. self%path%at_before <= 1.0_wp, 'the load before that')
+      factor = load_factor(min(step, load%steps_up), load%steps_up, load%steps_down)
+      call archive%require(abs(run%full%factor - factor) <= rounding, 'the largest load')
+      call archive%require(min(self%path%answers, self%path%homotopies, self%path%cuts, self%path%at_round_off) >= 0, &
+                           'a count of the path')
+      call archive%require(min(minval(run%full%count), minval(run%last%count)) >= 0, 'a count of contacts')
+    end associate
+  end subroutine judge
 
   !> Says why a step has no answer.
   subroutine explain(self, step, detail, reason)

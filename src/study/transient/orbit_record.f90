@@ -21,7 +21,7 @@ module gfb_orbit_record
     real(wp), allocatable :: motion(:, :) !! (what moves, steps) [m], [rad]
   contains
     procedure :: see => see_step
-    procedure :: turn_began, extents
+    procedure :: turn_began, extents, ends_at
     procedure :: visit => visit_orbit
   end type orbit_record_type
 
@@ -122,6 +122,20 @@ contains
     box = [(extremes_of(self%time(:self%steps), self%motion(moving(i), :self%steps), &
                         first, last), i=1, size(moving))]
   end function extents
+
+  !> Whether the steps are some of a march in their order, the last one its present one.
+  pure logical function ends_at(self, march)
+    class(orbit_record_type), intent(in) :: self !! as read
+    type(march_type), intent(in) :: march !! at its present state
+
+    ends_at = self%steps > 0
+    if (.not. ends_at) return
+    associate (n => self%steps, time => self%time(:self%steps))
+      ends_at = all(time(2:) > time(:n - 1)) .and. abs(time(n) - march%time) <= 0.0_wp .and. &
+                all(self%turns(2:n) >= self%turns(:n - 1)) .and. time(1) >= 0.0_wp .and. &
+                all(abs(self%motion(:2, n) - march%place(:2, 1)) <= 0.0_wp)
+    end associate
+  end function ends_at
 
   !> Saves or restores the steps.
   subroutine visit_orbit(self, archive)

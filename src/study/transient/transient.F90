@@ -6,7 +6,7 @@ module gfb_transient
   use gfb_petsc_session, only: sum_over_ranks, wall_time
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_time_march, only: march_type, march_settings_type, begin_march, begin_rubbing, take_step, end_march, visit_past, rebuild_past
+  use gfb_time_march, only: march_type, march_settings_type, begin_march, begin_rubbing, take_step, end_march, visit_past, rebuild_past, find_misfit
   use gfb_newton, only: newton_type, newton_report_type, forget_factors
   use gfb_case_file, only: case_array_type, add_array
   use gfb_spectra, only: spectra_type, spectra_of, points_a_turn
@@ -33,7 +33,7 @@ module gfb_transient
   use gfb_run_context, only: run_context_type
   use gfb_bearing_record, only: bearing_record_type
   use gfb_bearing_restart, only: visit_answer_and_record
-  use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading
+  use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading, refuse_restart
   implicit none (type)
   private
 
@@ -81,7 +81,7 @@ module gfb_transient
     type(orbit_record_type) :: orbit            !! of all steps of the last turns
   contains
     procedure :: add => add_line, see => see_step, add_arrays => add_history, lacks_spectrum
-    procedure :: visit => visit_history
+    procedure :: visit => visit_history, misfit
   end type transient_history_type
 
   real(wp), parameter :: shortest = 0.01_wp !! step of the way there [1]
@@ -237,6 +237,31 @@ contains
     self%lines = size(lines, 2)
     call move_alloc(lines, self%values)
   end subroutine visit_history
+
+  !> What in lines and orbit that were read does not fit the march; empty where nothing does.
+  function misfit(self, march, may_touch) result(what)
+    class(transient_history_type), intent(in) :: self !! as read
+    type(march_type), intent(in) :: march !! its own numbers do
+    logical, intent(in) :: may_touch !! gaps may close: asperities carry
+    character(len=:), allocatable :: what
+    integer, parameter :: of_gap = 12, of_pressures(2) = [13, 14]
+    integer :: i
+
+    what = ''
+    if (self%lines < 1) then
+      what = 'the lines so far'
+      return
+    end if
+    associate (line => self%values(:, :self%lines), n => self%lines)
+      if (abs(line(1, 1)) > 0.0_wp .or. any(line(1, 2:) <= line(1, :n - 1)) .or. line(1, n) > march%time) what = 'the times of the lines'
+      if (any(abs(line(3, :) - [(march%drive%speed_at(line(1, i)), i=1, n)]) > round_off*maxval(abs(line(3, :))))) then
+        what = 'the speeds of the lines'
+      end if
+      if (any(line(of_pressures, :) <= 0.0_wp)) what = 'the pressures of the lines'
+      if (self%smallest_gap > minval(line(of_gap, :)) .or. .not. (may_touch .or. self%smallest_gap > 0.0_wp)) what = 'the smallest gap'
+    end associate
+    if (.not. self%orbit%ends_at(march)) what = 'the orbit'
+  end function misfit
 
   !> How the steps of a scene are chosen.
   pure function settings_of(scene) result(settings)
@@ -487,12 +512,21 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! at the newest state
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(archive_type) :: archive
+    character(len=:), allocatable :: why
 
     call read_restart(restart, 'march', archive, error)
     if (allocated(error)) return
     call self%visit(archive, scene, bearing)
     call end_reading(restart, archive, error)
-    if (.not. allocated(error)) call rebuild_past(bearing, self%march)
+    if (allocated(error)) return
+    call find_misfit(bearing, self%march, why)
+    if (why == '') why = self%history%misfit(self%march, may_touch=scene%shaft_contact%present)
+    if (why == '' .and. self%march%steps /= restart%step) why = 'the number of steps'
+    if (why /= '') then
+      call refuse_restart(restart, 'the file is damaged at /march: '//why, error)
+    else
+      call rebuild_past(bearing, self%march)
+    end if
   end subroutine restore
 
   !> Saves or restores the march and its lines; foils get the mass that they had.
