@@ -10,7 +10,10 @@ import tempfile
 import shell_bearing
 from contact_strips import COARSE, SMALL, pressed, squeezed
 from gfb_run import GFB, SECONDS, Bearing, Checks, largest_difference, run, summary_difference
+from gfb_run import solve as gfb_solve
+from pads import of_pads
 from strips import fields, solve
+from thrust_shell import shells
 
 FACTOR = 1.5  # between estimate and peak, as the log states it
 HELD = {"support": "held", "pressure": 0.2e6, "steps_up": 1}
@@ -49,19 +52,17 @@ def check_same(checks, folder):
 
 
 def check_bearings(checks, folder):
-    """Film, foils and shaft by iterations and by factors: half and whole width, two ranks; factors go on where
-    iterations do not."""
+    """Film, foils and shaft by iterations and by factors, two ranks; factors go on where iterations do not."""
 
-    def bearing(name, linear_solver, axial=24, ranks=1, options=("--verbose",), **groups):
-        mesh = {"circumferential_elements": 104, "axial_elements": axial, "arc_elements": 8, "flat_elements": 2}
+    def bearing(name, linear_solver, ranks=1, options=("--verbose",)):
+        mesh = {"circumferential_elements": 104, "axial_elements": 24, "arc_elements": 8, "flat_elements": 2}
         return shell_bearing.solve(folder, name, ranks, options=options, mesh=mesh, model=dict(FULL),
-                                   solver={"linear_solver": linear_solver}, **groups)
+                                   solver={"linear_solver": linear_solver})
 
-    tilted = {"operation": {"tilt": (0.0, 1.0e-4)}}
-    for words, axial, groups, ranks in (("half the width", 24, {}, 1), ("half the width", 24, {}, 2), ("tilted", 32, tilted, 1)):
-        base = bearing("base", "direct", axial, **groups)
-        other = bearing("other", "iterative", axial, ranks, **groups)
-        where = f"bearing, {words}, {ranks} rank(s)"
+    base = bearing("base", "direct")
+    for ranks in (1, 2):
+        other = bearing("other", "iterative", ranks=ranks)
+        where = f"bearing, {ranks} rank(s)"
         values, others = base.physical(), other.physical()
         checks.that(f"{where}: what factors alone tell is left out", set(values) - set(others) == {"determinant_sign", "edge_stiffness"})
         checks.below(f"{where}: iterations against factors",
@@ -71,6 +72,27 @@ def check_bearings(checks, folder):
     bearing("left", "iterative", options=WRITTEN)
     status, log = run_with(pathlib.Path(folder)/"left.nml", folder, "-bearing_ksp_max_it", "2")
     checks.that("bearing: factors go on, which is said once", status == 0 and log.count(LEFT) == 1)
+
+
+def check_small(checks, folder):
+    """Small bearings of shells of every kind by iterations, from the first step on, and by factors."""
+    full, at = {"model": {"foil": "shell", "reduction": "none"}}, (0.5*shell_bearing.BEARING.clearance, 0.0)
+    ring = {"model": dict(FULL), "mesh": {"circumferential_elements": 52, "axial_elements": 4, "arc_elements": 4, "flat_elements": 2}}
+    kinds = {
+        "journal": lambda name, solver: shell_bearing.solve(folder, name, **shell_bearing.held(at), **ring, **solver),
+        "tilted journal": lambda name, solver: shell_bearing.solve(
+            folder, name, **shell_bearing.held(at, tilt=(1.0e-4, 0.0)), **ring, **solver),
+        "three pads": lambda name, solver: gfb_solve(folder, name, of_pads("shell", {"count": 3}, **full, **solver)),
+        "thrust": lambda name, solver: gfb_solve(folder, name, shells({"axial_load": 100.0}, model={"reduction": "none"}, **solver))}
+    for kind, make in kinds.items():
+        base, other = (make(f"small_{name}", {"solver": {"linear_solver": name}}) for name in ("direct", "iterative"))
+        values, others = base.physical(), other.physical()
+        sizes = {name: abs(values[name]) for name in others} | (shell_bearing.SIZES if kind != "thrust" else {}) | \
+            {name: shell_bearing.BEARING.force_unit for name in others if name.startswith("force_")}
+        checks.below(f"small bearing, {kind}: iterations against factors",
+                     max((abs(others[name] - values[name])/sizes[name] for name in others if values[name] != others[name]),
+                         default=0.0), 1.0e-8)
+        checks.that(f"small bearing, {kind}: iterations sufficed", LEFT not in other.log and "GMRES on two levels" in other.log)
 
 
 def run_with(path, folder, *petsc):
@@ -153,6 +175,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         check_same(checks, folder)
         check_bearings(checks, folder)
+        check_small(checks, folder)
         check_growth(checks, folder)
         check_failures(checks, folder)
         check_estimates(checks, folder)

@@ -65,6 +65,9 @@ module gfb_shell_foil
   integer, parameter :: corners = 4
 
   integer, parameter :: radial = 2 !! components of a displacement
+  !> Patches of a foil under a film. In small meshes coarse elements bend within a large patch in ways that neither its rigid
+  !> motions nor Jacobi's method reach, and the coarse level costs next to nothing as long as there are no more of them.
+  integer, parameter :: cheap_patches = 300
 
 contains
 
@@ -85,8 +88,8 @@ contains
     if (.not. has) return
     PetscCallA(MatGetOwnershipRange(self%elastic, first, last, ierr))
     unit = 1.0_wp ! `elastic` is in SI
-    call find_patches(self%top, [(first + i - 1, i=1, self%owned_top)], unit, of_top)
-    call find_patches(self%bumps, [(first + i - 1, i=self%owned_top + 1, self%owned)], unit, of_bumps)
+    call find_patches(self%top, [(first + i - 1, i=1, self%owned_top)], unit, cheap_patches, of_top)
+    call find_patches(self%bumps, [(first + i - 1, i=self%owned_top + 1, self%owned)], unit, cheap_patches, of_bumps)
     call create_motions([of_top, of_bumps], self%elastic, motions)
     PetscCallA(VecDuplicate(self%state, inverse, ierr))
     PetscCallA(GFB_VecGetArray(inverse, values, ierr))

@@ -246,7 +246,7 @@ contains
 
     PetscCallA(VecGetOwnershipRange(self%unit, first, last, ierr))
     PetscCallA(GFB_VecGetArrayRead(self%unit, unit, ierr))
-    call find_patches(self%foil, [(first + i - 1, i=1, self%foil%part%owned_unknowns)], unit, patch)
+    call find_patches(self%foil, [(first + i - 1, i=1, self%foil%part%owned_unknowns)], unit, 1, patch)
     PetscCallA(GFB_VecRestoreArrayRead(self%unit, unit, ierr))
     call create_motions(patch, self%elastic, self%motions)
     self%has_motions = .true.

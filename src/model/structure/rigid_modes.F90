@@ -18,6 +18,7 @@ module gfb_rigid_modes
   integer, parameter :: modes = 2*space
   integer, parameter, public :: rigid_motion_count = modes !! of a body
   integer, parameter :: patch_nodes = 36       !! of a patch at most: 180 unknowns become six
+  integer, parameter :: least_patch_nodes = 3  !! of a patch where a foil is to have many
   real(wp), parameter :: dependent = 1.0e-6_wp !! what is left of a mode that others make up, relative
   integer, parameter :: power_steps = 12       !! for the largest eigenvalue, which need not be exact
   real(wp), parameter :: damping = 4.0_wp/3.0_wp !! of Jacobi's step over the inverse of that eigenvalue
@@ -104,17 +105,19 @@ contains
   end function comes_first
 
   !> The patches of one foil's nodes on this rank, and how they move; a patch lies on one rank.
-  subroutine find_patches(foil, row, unit, patch)
+  subroutine find_patches(foil, row, unit, wanted, patch)
     type(foil_structure_type), intent(in) :: foil !! of shells
     integer(pint), intent(in) :: row(:) !! number, from 0, of each unknown of the foil that this rank owns, in what is to be moved
     real(wp), intent(in) :: unit(:)     !! one scaled unknown of them is so much [m] or [1]
+    integer, intent(in) :: wanted !! patches of the foil at least, while they are not smaller than they may be
     type(patch_type), allocatable, intent(out) :: patch(:) !! this rank's
     integer, allocatable :: owned(:), number(:), member(:), start(:), node(:), own(:)
     real(wp), allocatable :: mode(:, :)
-    integer :: i, patches
+    integer :: i, patches, most
 
+    most = max(least_patch_nodes, min(patch_nodes, foil%mesh%nodes()/wanted))
     owned = pack([(i, i=1, size(foil%part%mesh_node))], foil%part%owned)
-    call cut_into_patches(foil%mesh%position(:, foil%part%mesh_node(owned)), patch_nodes, number, patches)
+    call cut_into_patches(foil%mesh%position(:, foil%part%mesh_node(owned)), most, number, patches)
     call list_members(number, patches, member, start)
     allocate (patch(patches))
     do i = 1, patches

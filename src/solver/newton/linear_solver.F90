@@ -42,7 +42,7 @@ module gfb_linear_solver
   end type lagged_factors_type
 
   integer(pint), parameter :: longest = 500        !! iterations of a solve at most
-  integer(pint), parameter :: restart = 10         !! of GMRES
+  integer(pint), parameter :: restart = 100        !! of GMRES: small bearings stall with 10; it takes room as it goes
   real(wp), parameter :: tolerance = 1.0e-5_wp     !! of the energy of what is left, relative
   real(wp), parameter :: true_tolerance = 1.0e-2_wp !! of the true residual, relative: Newton's method corrects what is left
   integer, parameter :: slower = 2                 !! growth of the iterations after which a new coarse level pays
