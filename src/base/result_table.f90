@@ -196,10 +196,11 @@ module gfb_result_table
     result_type('maximum_top_foil_stress', 'Pa', number, bearing, &
       'largest von Mises stress of the top foil', &
       'foils of shells, beams or plates: largest von Mises stress at the corners of elements, '// &
-      'of all pads, on either face', asked=.true.), &
+      'of all pads, on either face', asked=.true., nodal=.true.), &
     result_type('maximum_bump_foil_stress', 'Pa', number, bearing + strip, &
       'largest von Mises stress of the bump foil', &
-      'the same of shells or beams of the bump foil; of a strip at the full load', asked=.true.), &
+      'the same of shells or beams of the bump foil; of a strip at the full load', asked=.true., &
+      nodal=.true.), &
     result_type('solid_contact_force_<a>', 'N', number, bearing, &
       'share of force_<a> that the solid contact carries', &
       'with `&shaft_contact`: share of `force_x`, `force_y` that the asperities carry'), &

@@ -568,6 +568,9 @@ contains
     associate (log => context%log)
       call self%sequence%show(log)
       call log%line(self%sequence%value_words())
+      if (is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil)) then
+        call log%line('an estimate, no bound: crests ripple the film (manual: accuracy.md)')
+      end if
       if (self%converged) then
         call log%line('target of '//text(100.0_wp*self%sequence%target, 4)//' % met; left out: '// &
                       left_out//'which the target does not need')

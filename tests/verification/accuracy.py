@@ -130,6 +130,9 @@ def check_beams(checks, folder):
                                  accuracy={"quantity": "force_x", "target": 0.3})
     lines = [line for line in answer.log.splitlines() if line.startswith("compared: beams")]
     checks.that(f"{lines}", len(lines) == 1 and "on the first mesh" in lines[0])
+    rigid = accurate(folder, "force_y", 1.0e-2, number=1.0, eccentricity=(0.6*BEARING.clearance, 0.0))
+    checks.that("an error on foils with crests is called no bound, one on a rigid pad is not",
+                answer.log.count("an estimate, no bound") == 1 and "no bound" not in rigid.log)
     first = {"circumferential_elements": 52, "axial_elements": 2, "arc_elements": 2, "flat_elements": 1,
              "align_crests": False}
     shells, beams = (shell_bearing.solve(folder, foil, **place, mesh=first, model={"foil": foil})
