@@ -60,7 +60,7 @@ contains
   pure subroutine find_surplus(heat, film, always, temperature, made, out)
     type(film_heat_type), intent(in) :: heat !! of the bearing
     type(film_work_type), intent(in) :: film !! of all its pads
-    logical, intent(out) :: always           !! more is made than leaves at every temperature up to `hottest`
+    logical, intent(out) :: always       !! more is made than leaves at each up to `hottest`
     real(wp), intent(out) :: temperature     !! [K]
     real(wp), intent(out) :: made, out       !! there [W]
     real(wp) :: trial, viscosity(3), here(2)

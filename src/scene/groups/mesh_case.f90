@@ -82,7 +82,8 @@ contains
                           'factorizations, of all meshes, after which a search from '// &
                           'nothing gives up', &
                           from_to(1.0_wp, most_iterations), &
-                          default=text(usual_factorizations)//', with shells '//text(usual_of_shells))
+                          default=text(usual_factorizations)//', with shells '// &
+                          text(usual_of_shells))
     call keys%real_key('smallest_load_step', solver%smallest_load_step, '1', &
                        'smallest load step, over the whole path, before the path is given up', &
                        between(0.0_wp, 1.0_wp))

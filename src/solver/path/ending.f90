@@ -214,8 +214,8 @@ contains
     self%temperature = [self%temperature(2:), temperature]
   end subroutine add_temperature
 
-  !> Whether the path turns back before a place where there was no answer: the parabola through the
-  !> last three answers, the path's parameter over the temperature, has its highest point short of it.
+  !> Whether the path turns back before a place where there was no answer: the parabola through
+  !> the last three answers, the path's parameter over the temperature, has its top short of it.
   pure logical function turns(self, failed)
     class(heat_trail_type), intent(in) :: self !! the trail
     real(wp), intent(in) :: failed !! that place [1]

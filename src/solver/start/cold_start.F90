@@ -313,7 +313,7 @@ contains
     if (between) between = .not. gives_up(mesh%newton%settings%bound)
     if (between) return
     associate (report => mesh%report)
-      again = .not. (report%converged() .or. mesh%plan%upwind .or. has_contacts) .and. mesh%plan%may_upwind
+      again = .not. (report%converged() .or. mesh%plan%upwind .or. has_contacts .or. problem%no_room) .and. mesh%plan%may_upwind
       ! Where the film is emptied or its branch folds SUPG ends there, too; where the shaft touches down it may not.
       if (again) again = all(report%ending%kind /= [ending_fold, ending_emptied])
       if (again) again = .not. gives_up(mesh%newton%settings%bound)
