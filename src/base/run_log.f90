@@ -18,7 +18,9 @@ module gfb_run_log
   type :: way_type
     character(len=:), allocatable :: words  !! where on the way; empty: there is none
     real(wp) :: share = 0.0_wp              !! that is behind [1]
+    real(wp) :: share_before = 0.0_wp       !! the last smaller one [1]
     integer(long) :: begun = 0, reached = 0 !! counts of the clock, at its begin and at this share
+    integer(long) :: reached_before = 0     !! the same at the one before
   end type way_type
 
   !> What all copies of a run's log know together.
@@ -176,12 +178,22 @@ contains
     type(way_type), intent(inout) :: way
     character(len=*), intent(in) :: words
     real(wp), intent(in), optional :: share
+    real(wp) :: now
 
     way%words = words
-    way%share = 0.0_wp
-    if (present(share)) way%share = share
+    now = 0.0_wp
+    if (present(share)) now = share
+    if (now > 0.0_wp .and. abs(now - way%share) <= 0.0_wp) return ! tried once more from there
+    way%share_before = merge(way%share, 0.0_wp, now > way%share)
+    way%reached_before = way%reached
+    way%share = now
     call system_clock(way%reached)
-    if (.not. way%share > 0.0_wp) way%begun = way%reached
+    if (.not. way%share > 0.0_wp) then
+      way%begun = way%reached
+      way%reached_before = way%reached
+    else if (.not. way%share_before > 0.0_wp) then
+      way%reached_before = way%begun
+    end if
   end subroutine advance
 
   !> The last step of a long computation: told where nothing else was for a while, with the time.
@@ -228,22 +240,29 @@ contains
     line = line//part
   end subroutine add_part
 
-  !> Where on a way, and about how long the rest takes if it goes on as before.
+  !> Where on a way, and about how long the rest takes if it goes on as slowly as on the whole, or on its last piece where that was
+  !> slower: steps that are cut count. Where it has not come on for longer than that, how long it has been there.
   function place_on(way, now, rate, ending) result(words)
     type(way_type), intent(in) :: way
     integer(long), intent(in) :: now, rate !! count of the clock, and counts a second
     character(len=*), intent(in) :: ending !! of the time that is left
     character(len=:), allocatable :: words
     character(len=24) :: seconds
-    real(wp) :: left
+    real(wp) :: left, there
 
     words = way%words
     if (words == '' .or. way%share < least_share) return
-    left = real(way%reached - way%begun, wp)*(1.0_wp/way%share - 1.0_wp)
-    left = (left - real(now - way%reached, wp))/real(rate, wp)
-    if (left < 1.0_wp) return
-    write (seconds, '(i0)') nint(left, long)
-    words = words//', about '//trim(seconds)//ending
+    left = max(real(way%reached - way%begun, wp)/way%share, &
+               real(way%reached - way%reached_before, wp)/max(way%share - way%share_before, tiny(1.0_wp)))
+    left = left*(1.0_wp - way%share)/real(rate, wp)
+    there = real(now - way%reached, wp)/real(rate, wp)
+    if (left - there >= 1.0_wp) then
+      write (seconds, '(i0)') nint(left - there, long)
+      words = words//', about '//trim(seconds)//ending
+    else if (there >= 1.0_wp .and. way%share < 1.0_wp) then
+      write (seconds, '(i0)') nint(there, long)
+      words = words//' for '//trim(seconds)//' s'
+    end if
   end function place_on
 
   !> One line of a table of iterations.

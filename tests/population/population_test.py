@@ -48,7 +48,7 @@ def check_rules(checks):
         found = [value(one.groups) for one in some]
         checks.that(f"{words}: {min(found):.4g} to {max(found):.4g}, within {low:g} .. {high:g}",
                     low <= min(found) and max(found) <= high and max(found) - min(found) > 0.9*(high - low)*0.9)
-    for model in members.MODELS:
+    for model in dict.fromkeys(members.TURN):
         of_model = [one for one in some if one.model == model]
         edges = {(one.groups["top_foil"]["fixed_edge"], one.groups["bump_foil"]["fixed_edge"]) for one in of_model
                  if "top_foil" in one.groups}

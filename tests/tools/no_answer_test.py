@@ -17,7 +17,8 @@ ANSWERS = ("contacts that slide to and fro, at", "amplitude [m]   Kxx", "heat: t
            "losses: loss_factor acts", "losses: viscous ones of the foils", "frequency [rad/s] (over speed)", "axial mode of", "modes: frequency [rad/s]",
            "more die out in less than a turn", "frequencies put between the", "unstable, its", "least damped mode (", "the first point,", ", frequency ratio",
            ", largest multiplier", "periods marched, each in", "onset of whirl at", "restart: resumed from",
-           "of them taken again shorter", "film and foils are stored at", "the orbit is steady")
+           "of them taken again shorter", "film and foils are stored at", "the orbit is steady", ", rotor and foil: the rotor has",
+           "the number of steps")
 LITERAL = re.compile(r"'((?:[^']|'')*)'")
 
 

@@ -83,7 +83,7 @@ class Structure(unittest.TestCase):
 
     def test_chains_and_types_of_foils_are_seen(self):
         words, _ = self.run_tool(files={"base/kinds.f90": KINDS, "film/gap.f90": GAP, "run/asks.f90": FOIL})
-        self.assertIn("longest chain of use: 3 ", words)
+        self.assertIn("longest chain of use: 3\n", words)
         self.assertIn("select type on foil models outside src/model/foil: 1 (limit 0), asks.f90", words)
 
     def test_arrays_of_chance_size_are_seen(self):

@@ -30,7 +30,8 @@ module gfb_heat_start
   integer, parameter :: most_at_once = 15        !! Newton's iterations, of a step: those that converge take 5 to 9
   real(wp), parameter :: first_part = 0.3_wp     !! of the ambient temperature, or twice the clearance, that a first step may take [1]
   real(wp), parameter :: least_part = 1.0e-3_wp  !! of all heat, in a step [1]
-  real(wp), parameter :: least_share = 0.05_wp   !! of the way that is gone, or of the way from a state that has all of it, in a step [1]
+  real(wp), parameter :: least_share = 0.02_wp   !! of the way that is gone, in a step [1]
+  real(wp), parameter :: least_shown = 0.05_wp   !! of the way from a state that was reached before, in a step [1]
   real(wp), parameter :: lowest_speed = 0.3_wp !! over the one asked for: below it films that bear a load touch down [1]
 
 contains
@@ -92,7 +93,7 @@ contains
     end associate
   end subroutine raise_heat
 
-  !> Limits of a path with heat while it is searched: where a step of a twentieth of the way that is gone finds no answer, none
+  !> Limits of a path with heat while it is searched: where a step of a fiftieth of the way that is gone finds no answer, none
   !> is looked for by shorter ones.
   pure function heating_settings(settings, smallest) result(heating)
     type(path_settings_type), intent(in) :: settings !! the scene's
@@ -151,9 +152,9 @@ contains
       if (target%speed > 0.0_wp .and. share > lowest_speed) then
         call newton%log%line('not with all heat at once ('//report%reason()//'): from a lower speed')
         call reached%save(bearing)
-        call follow_path(bearing, newton, slow, 1.0_wp, heating_settings(problem%settings, least_share), other)
+        call follow_path(bearing, newton, slow, 1.0_wp, heating_settings(problem%settings, least_shown), other)
         if (other%converged()) then
-          call follow_path(bearing, newton, target, first_step, heating_settings(problem%settings, least_share), report)
+          call follow_path(bearing, newton, target, first_step, heating_settings(problem%settings, least_shown), report)
         else
           call reached%restore(bearing)
         end if
@@ -177,11 +178,14 @@ contains
         where_it_ends = 'with heat at '//text(100.0_wp*point%speed/speed, 3)//' % of the speed'
       end if
       associate (heat => answer%heat)
-        if (report%ending%kind == ending_lost) call report%ending%add_words('lost '//where_it_ends//': ', '')
-        call report%ending%add_words('', '; last state '//where_it_ends//': shaft '// &
-                                     text(felt(problem%bearing, heat%shaft_temperature), 4)//' K, film up to '// &
-                                     text(felt(problem%bearing, heat%whole%maximum_film_temperature), 4)//' K')
+        where_it_ends = where_it_ends//': shaft '//text(felt(problem%bearing, heat%shaft_temperature), 4)//' K, film up to '// &
+                        text(felt(problem%bearing, heat%whole%maximum_film_temperature), 4)//' K'
       end associate
+      if (report%ending%kind == ending_lost) then
+        call report%ending%add_words('lost '//where_it_ends//'; ', '')
+      else
+        call report%ending%add_words('', '; last state '//where_it_ends)
+      end if
     end associate
   end subroutine say_where
 
@@ -215,7 +219,7 @@ contains
       begins = report%converged() .and. problem%refusal%ending%kind /= ending_heated ! that is of any mesh
       if (begins) begins = .not. gives_up(newton%settings%bound)
       if (begins) then
-        call follow_path(bearing, newton, problem%target, first_step, heating_settings(problem%settings, least_share), report)
+        call follow_path(bearing, newton, problem%target, first_step, heating_settings(problem%settings, least_shown), report)
         if (report%converged()) return
         call say_where(problem, report)
         if (report%has_cause()) return
