@@ -376,10 +376,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         if "--long" not in sys.argv:
             check_foil_peak(checks, folder)
-            check_lost_modes(checks, folder)
             check_crossing(checks, folder)
             check_onset_with_losses(checks, folder)
             checks.close()
+        check_lost_modes(checks, folder)
         check_foil_mass(checks, folder)
         check_growth(checks, folder)
         check_onset(checks, folder)
