@@ -53,6 +53,8 @@ module gfb_continuation
   integer, parameter :: most_rescues = 4             !! of a path on which no step leads on
   integer, parameter :: straight_before_leap = 3     !! Newton steps, before they are bent
   real(wp), parameter :: leaps(3) = [0.002_wp, 0.02_wp, 0.1_wp] !! of the path that is left [1]
+  !> A trial short of a fold fails, too: where the branch turns no farther off than this, over the trial's step, it is one [1].
+  real(wp), parameter :: short_of_fold = 2.0_wp
   real(wp), parameter, public :: closing_gap = 0.01_wp       !! a gap this small ends paths, over the clearance [1]
   real(wp), parameter :: empty = 1.0e-3_wp           !! a pressure that is nothing, over the ambient one [1]
 
@@ -492,7 +494,7 @@ contains
     answer = bearing_answer(path%bearing)
     if (is_closing(path%bearing) .and. .not. spent) then
       report%ending = path_closes(answer%minimum_gap, report%ending)
-    else if (path%folds .or. path%heat%turns(path%failed)) then
+    else if (path%folds .or. path%heat%turns(path%at + short_of_fold*(path%failed - path%at))) then
       report%ending = path_folds(mover)
     else if (is_emptied(path%bearing, answer)) then
       report%ending = path_empties(answer%minimum_pressure, answer%minimum_gap, answer%maximum_peclet)

@@ -143,6 +143,7 @@ contains
     type(operating_point_type) :: slow
     type(path_report_type) :: other
     type(saved_state_type) :: reached
+    type(ending_type) :: ending
     real(wp) :: share
 
     associate (bearing => problem%bearing, newton => problem%newton, target => problem%target)
@@ -154,7 +155,9 @@ contains
         call reached%save(bearing)
         call follow_path(bearing, newton, slow, 1.0_wp, heating_settings(problem%settings, least_shown), other)
         if (other%converged()) then
+          ending = report%ending
           call follow_path(bearing, newton, target, first_step, heating_settings(problem%settings, least_shown), report)
+          if (report%ending%kind == ending_lost .and. ending%has_cause()) report%ending = ending ! it is the same one, nearer to its end
         else
           call reached%restore(bearing)
         end if
