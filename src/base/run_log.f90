@@ -240,8 +240,9 @@ contains
     line = line//part
   end subroutine add_part
 
-  !> Where on a way, and about how long the rest takes if it goes on as slowly as on the whole, or on its last piece where that was
-  !> slower: steps that are cut count. Where it has not come on for longer than that, how long it has been there.
+  !> Where on a way, and about how long the rest takes if it goes on as slowly as on the whole, or
+  !> on its last piece where that was slower: steps that are cut count. Where it has not come on for
+  !> longer than that, how long it has been there.
   function place_on(way, now, rate, ending) result(words)
     type(way_type), intent(in) :: way
     integer(long), intent(in) :: now, rate !! count of the clock, and counts a second
@@ -252,8 +253,10 @@ contains
 
     words = way%words
     if (words == '' .or. way%share < least_share) return
-    left = max(real(way%reached - way%begun, wp)/way%share, &
-               real(way%reached - way%reached_before, wp)/max(way%share - way%share_before, tiny(1.0_wp)))
+    associate (piece => max(way%share - way%share_before, tiny(1.0_wp)))
+      left = max(real(way%reached - way%begun, wp)/way%share, &
+                 real(way%reached - way%reached_before, wp)/piece)
+    end associate
     left = left*(1.0_wp - way%share)/real(rate, wp)
     there = real(now - way%reached, wp)/real(rate, wp)
     if (left - there >= 1.0_wp) then
