@@ -335,13 +335,14 @@ contains
     end associate
   end subroutine search_cold
 
-  !> From an answer to that with the lift of an edge that the scene asks for.
+  !> From an answer to that with the lift of an edge that the scene asks for. What follows a branch has bounds of its own.
   subroutine seek_lift(problem, report)
     type(start_problem_type), intent(inout) :: problem !! at the answer
     type(path_report_type), intent(in) :: report !! of its search
 
     associate (operation => problem%scene%operation)
       if (report%converged() .and. operation%asks_for_lift()) then
+        if (associated(problem%newton%settings%bound)) call problem%newton%settings%bound%lift()
         call seek_branch(operation%leading_edge_lift, operation%leading_edge_lift_edge, problem)
       end if
     end associate
