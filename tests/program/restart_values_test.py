@@ -2,8 +2,8 @@
 """Restart files whose numbers somebody has changed, the checksum made anew: no value makes a run abort, and none a wrong answer.
 
 A run of each kind is stopped. Then every dataset of its restart file in turn, and single numbers of the long ones, become what is
-no number, too large, negative, or huge: the run that goes on refuses the file with a sentence, or ends with the answer of the file
-as it was, or without one, status 2. With --long kinds of all sorts of runs."""
+no number, too large or negative: the run that goes on refuses the file with a sentence, or ends with the answer of the file
+as it was, or without one, status 2. With --long other kinds of runs."""
 
 import json
 import pathlib
@@ -24,7 +24,7 @@ from gfb.bench import faults  # noqa: E402
 from scenes import COARSE, HEAVY, MEAN, PLATES, PRESSED, ROTOR, SHELL, merged  # noqa: E402
 
 SECONDS = 120
-VALUES = (numpy.nan, 1.0e300, -1.0, 2.0**40, -numpy.inf)
+VALUES = (numpy.nan, 1.0e300, -1.0)
 SINGLE = 3  # numbers of a list that are changed alone, each once by each value
 SEED = 4
 SAME = 1.0e-6
@@ -43,7 +43,6 @@ FEW = {"sweep": merged(faults.CASE, **LOADS, mesh={"circumferential_elements": 2
 SPRINGS = merged(MEAN, mesh=COARSE, operation={"load": (-60.0, 0.0)}, **LOADS)
 MORE = {"springs": SPRINGS, "beams": merged(BEAM, **SMALL),
         "memory": merged(BEAM, sweep=SMALL["sweep"] | {"friction_memory": True}),
-        "folds": merged(BEAM, sweep=SMALL["sweep"] | {"values": (4.0, 8.0), "turn_folds": True}),
         "held": merged(MEAN, mesh=COARSE, operation={"load": (-60.0, 0.0)}, sweep={
             "parameter": "tilt_x", "values": tuple(1.0e-5*i for i in range(20)), "hold_position": True}),
         "capacity": merged(MEAN, scene={"analysis": "load_capacity"}, operation={"load": (-50.0, 0.0)}, mesh=COARSE,
@@ -164,9 +163,10 @@ def check_steps(checks, folder):
 def main():
     checks, long = Checks(), "--long" in sys.argv
     with tempfile.TemporaryDirectory() as name:
-        for kind, content in (FEW | MORE if long else FEW).items():
-            check_kind(checks, pathlib.Path(name), kind, content, VALUES if long else VALUES[:3])
-        check_steps(checks, pathlib.Path(name))
+        for kind, content in (MORE if long else FEW).items():
+            check_kind(checks, pathlib.Path(name), kind, content, VALUES[:2] if long else VALUES)
+        if not long:
+            check_steps(checks, pathlib.Path(name))
     checks.close()
 
 
