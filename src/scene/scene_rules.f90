@@ -5,9 +5,12 @@ module gfb_scene_rules
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle, &
                               leading_edge_periodic
   use gfb_case_keys, only: case_keys_type
-  use gfb_study_rules, only: check_counts, check_sweep, check_edge_lift, check_accuracy, &
-                             check_capacity, check_sample, is_unloaded
-  use gfb_foil_rules, only: check_foils, check_shape
+  use gfb_study_rules, only: check_sweep, check_edge_lift, check_accuracy, check_capacity, &
+                             is_unloaded
+  use gfb_count_rules, only: check_counts
+  use gfb_sample_rules, only: check_sample
+  use gfb_foil_rules, only: check_foils
+  use gfb_shape_rules, only: check_shape
   use gfb_model_case, only: needs_meshes, foil_rigid, foil_elastic_foundation, foil_plate, &
                             foil_shell, meshes_foils, &
                             half_width_yes, reduction_guyan, coupling_partitioned, &

@@ -20,7 +20,7 @@ module gfb_bearing_writing
   use gfb_text, only: text
   use gfb_quantity, only: quantity_type, add_quantity, place_of, number_in
   use gfb_result_names, only: add_result
-  use gfb_foil_rules, only: thin
+  use gfb_shape_rules, only: thin
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block, asked_first
   use gfb_answer_notes, only: show_contact_notes, show_film_notes

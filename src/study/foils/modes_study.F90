@@ -17,7 +17,8 @@ module gfb_modes_study
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure
   use gfb_eigenmodes, only: modes_type, lowest_modes, destroy_modes
-  use gfb_mode_energies, only: exact, sharpen_modes, free_motions
+  use gfb_mode_energies, only: exact, sharpen_modes
+  use gfb_free_motions, only: free_motions
   use gfb_case_file, only: history_row_type, case_array_type, fill_array
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_foil_grid, only: create_foil_grid, add_displacement

@@ -22,7 +22,8 @@ module gfb_strip_study
   use gfb_case_file, only: history_row_type, case_array_type
   use gfb_contact_record, only: record_contacts, visit_contact_record, add_contact_arrays
   use gfb_strip_summary, only: step_quantities, show_step, show_step_header, answer_quantities, cost_quantities, strip_run_type, &
-                               visit_run, strip_companions, show_companions, add_companions
+                               visit_run
+  use gfb_strip_companions, only: strip_companions, show_companions, add_companions
   use gfb_restart_file, only: save_restart, read_restart, end_reading, refuse_restart, slipped_on
   use gfb_reasons, only: reason_type, reason_load_step
   use gfb_outcome, only: add_outcome

@@ -29,7 +29,7 @@ module gfb_sample
   use gfb_petsc_session, only: rank_count, stop_is_asked, sum_over_ranks, wall_time
   use gfb_outcome, only: add_outcome
   use gfb_reasons, only: reason_type, reason_failed, reason_members, status_unconverged
-  use gfb_study_rules, only: sample_member
+  use gfb_sample_rules, only: sample_member
   use gfb_signals, only: stop_status, stop_words
   use gfb_study, only: study_type
   implicit none (type, external)
