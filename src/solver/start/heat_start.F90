@@ -222,7 +222,7 @@ contains
       begins = report%converged() .and. problem%refusal%ending%kind /= ending_heated ! that is of any mesh
       if (begins) begins = .not. gives_up(newton%settings%bound)
       if (begins) then
-        call follow_path(bearing, newton, problem%target, first_step, heating_settings(problem%settings, least_shown), report)
+        call follow_path(bearing, newton, problem%target, least_shown, heating_settings(problem%settings, least_shown), report)
         if (report%converged()) return
         call say_where(problem, report)
         if (report%has_cause()) return
