@@ -16,7 +16,7 @@ module gfb_bearing_answer
   use gfb_bearing_system, only: bearing_system_type, heat_flows
   implicit none (type, external)
   private
-  public :: bearing_answer, place_of_gap, visit_answer
+  public :: bearing_answer, heat_of_answer, place_of_gap, visit_answer
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
@@ -84,7 +84,7 @@ contains
     logical, intent(in), optional :: stresses !! those of the foils, too; default: without
     type(bearing_answer_type) :: answer
 
-    real(wp), dimension(bearing%local_size()) :: unknown, value
+    real(wp) :: unknown(bearing%local_size())
     real(wp) :: gap(bearing%film_nodes()), pressure(bearing%film_nodes())
     real(wp) :: sums(2*film_forces + 1, size(bearing%pad)), most(8 + extremes, size(bearing%pad))
     real(wp) :: total(size(sums, 1)), largest(size(most, 1)), contact(summed, size(bearing%pad))
@@ -128,11 +128,7 @@ contains
     answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius &
                              + answer%solid_torque
     if (bearing%heat%present) then
-      value = 0.0_wp
-      associate (here => bearing%position(unknown))
-        answer%heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
-                                  heat_flows(bearing, here, unknown, gap, value))
-      end associate
+      answer%heat = read_heat(bearing, unknown, gap)
       answer%friction_torque = answer%solid_torque
       if (abs(bearing%point%speed) > 0.0_wp) then
         answer%friction_torque = answer%heat%whole%power/bearing%point%speed + answer%solid_torque
@@ -154,6 +150,31 @@ contains
       if (answer%ring%sides > 1) call read_other_side(bearing, answer)
     end if
   end function bearing_answer
+
+  !> The heat alone of an answer, off the present state.
+  function heat_of_answer(bearing) result(heat)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    type(heat_answer_type) :: heat
+    real(wp) :: unknown(bearing%local_size())
+
+    call bearing%get_unknowns(unknown)
+    heat = read_heat(bearing, unknown, bearing%gap(unknown))
+  end function heat_of_answer
+
+  !> Reads the heat off unknowns and gap.
+  function read_heat(bearing, unknown, gap) result(heat)
+    type(bearing_system_type), intent(in) :: bearing !! with heat
+    real(wp), intent(in) :: unknown(:) !! the local ones [SI]
+    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    type(heat_answer_type) :: heat
+    real(wp) :: value(size(unknown))
+
+    value = 0.0_wp
+    associate (here => bearing%position(unknown))
+      heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
+                         heat_flows(bearing, here, unknown, gap, value))
+    end associate
+  end function read_heat
 
   !> Where a thrust bearing's film is thinnest, and its pressure centred.
   function ring_answer(bearing, pressure, gap) result(answer)

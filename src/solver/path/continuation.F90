@@ -19,7 +19,8 @@ module gfb_continuation
                         path_report_type, heat_trail_type
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, heat_of_answer
+  use gfb_heat_answer, only: heat_answer_type
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_too_far, steps_spent, &
                          steps_given_up
   implicit none (type)
@@ -273,7 +274,6 @@ contains
     call follow_steps(path, step_rules_type(first_step=min(1.0_wp, max(first_step, smallest)), smallest_step=smallest, &
                                             smallest_share=settings%smallest_share, easy_iterations=easy_iterations, &
                                             grows_at_once=.false.), ending)
-    report%heat = path%heat
     report%reached = path%reached
     report%fraction = path%at
     report%steps = path%steps
@@ -332,12 +332,12 @@ contains
   subroutine feel_heat(path, at)
     type(point_path_type), intent(inout) :: path
     real(wp), intent(in) :: at !! parameter of the answer [1]
-    type(bearing_answer_type) :: answer
+    type(heat_answer_type) :: answer
 
     associate (heat => path%bearing%heat, growth => path%bearing%point%growth)
       if (.not. heat%present) return
-      answer = bearing_answer(path%bearing, brief=.true.)
-      call path%heat%add(at, heat%ambient + growth*(answer%heat%whole%maximum_film_temperature - heat%ambient))
+      answer = heat_of_answer(path%bearing)
+      call path%heat%add(at, heat%ambient + growth*(answer%whole%maximum_film_temperature - heat%ambient))
     end associate
   end subroutine feel_heat
 

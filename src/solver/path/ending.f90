@@ -60,7 +60,6 @@ module gfb_ending
     integer :: cuts = 0                       !! steps that had to be shortened
     logical :: shaft_fixed = .false.          !! the shaft was still fixed
     logical :: of_smaller = .false.           !! the ending is a smaller mesh's, not shown here
-    type(heat_trail_type) :: heat             !! how hot the film has become along it
   contains
     procedure :: converged, has_cause => report_has_cause, reason
   end type path_report_type
