@@ -224,7 +224,7 @@ END
   expect 3 'pip failed: ' 'pip fails'
   expect 3 'habits of Fortran are not looked at' 'without fortitude the rest is checked'
   expect 3 'are in order' 'and found in order'
-  expect 3 '-L unit' 'and the tests run'
+  expect 3 '-LE ^(hard|release|long)$ -L unit' 'and the tests run, without those of other labels'
   expect 3 'left out, as pip failed' 'and what was left out stands at the end'
 else
   echo 'findent or fortitude is not at hand: tools/check is not tested'
