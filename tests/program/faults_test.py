@@ -17,6 +17,7 @@ from gfb_run import GFB, Checks, write_case  # noqa: E402
 from gfb.bench import faults  # noqa: E402 (gfb_run has made it known)
 from scenes import PLATES, ROTOR, SHELL, merged  # noqa: E402
 
+FLIPS = 50  # damaged files of each kind; tools/bench faults has 200
 SWEEP = {"sweep": {"parameter": "load", "values": tuple(10.0 + i for i in range(20))}}
 
 
@@ -170,7 +171,7 @@ def main():
                       check_small_stack, check_older_surfaces):
             if not long:
                 check(checks, pathlib.Path(name))
-    rows = faults.all_rows(GFB, long)
+    rows = faults.all_rows(GFB, long, FLIPS)
     checks.that("faults were tried", len(rows) > 0)
     for row in rows:
         checks.that(f"{row.fault}: {row.tried} tried, {row.survived} done all the same, {row.refused} refused {row.wrong}",

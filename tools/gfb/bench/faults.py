@@ -281,8 +281,8 @@ class Faults:
         return Row("MPI cannot start", len(settings), 0, refused, wrong)
 
 
-def all_rows(gfb, long=True):
-    """Every kind of fault."""
+def all_rows(gfb, long=True, flips=200):
+    """Every kind of fault; so many damaged files where it is long."""
     rows = []
     with tempfile.TemporaryDirectory() as name:
         faults = Faults(gfb, name)
@@ -295,7 +295,7 @@ def all_rows(gfb, long=True):
                 rows.append(faults.operations(library, "full"))
                 rows.append(faults.operations(library, "full", ranks=2))
         rows.append(faults.small_disk([4096*i for i in range(40 if long else 5)]))
-        rows.append(faults.damaged(200 if long else 10))
-        rows.append(faults.damaged_results(200 if long else 20))
+        rows.append(faults.damaged(flips if long else 10))
+        rows.append(faults.damaged_results(flips if long else 20))
         rows.append(faults.no_start())
     return [row for row in rows if row]
