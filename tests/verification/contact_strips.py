@@ -163,11 +163,11 @@ def check_convergence(checks, folder, met):
     """Second order along the arc, with and without friction; the paper's mesh is stiff."""
     for words, friction in (("friction 0", {}), ("0.1 at both", {"top": 0.1, "sleeve": 0.1})):
         found = [crests(pressed(folder, "size", **friction, mesh={"arc_elements": 8*k, "flat_elements": 2*k,
-                                                                  "axial_elements": 20})) for k in (1, 2, 4)]
+                                                                  "axial_elements": 10})) for k in (1, 2, 4)]
         order = numpy.log2((found[1] - found[0])/(found[2] - found[1]))
         checks.within(f"{words}: lowest order of the crests", order.min(), 1.85, 2.15)
         checks.within(f"{words}: highest order of the crests", order.max(), 1.85, 2.15)
-    found = [squeezed(folder, "size", steps=4, mesh={"arc_elements": 8*k, "flat_elements": 2*k, "axial_elements": 20})
+    found = [squeezed(folder, "size", steps=4, mesh={"arc_elements": 8*k, "flat_elements": 2*k, "axial_elements": 10})
              ["dissipated_energy"] for k in (1, 2, 4)]
     checks.within("order of a loop's energy", math.log2((found[1] - found[0])/(found[2] - found[1])), 1.85, 2.15)
     for words, friction in (("friction 0", {}), ("0.1 at the sleeve", {"sleeve": 0.1})):
