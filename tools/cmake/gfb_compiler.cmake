@@ -41,7 +41,11 @@ set(gfb_debug_checks -O0 -g -fcheck=all -finit-real=snan -finit-integer=-9999999
 # Arrays that the compiler makes for itself say so where they get no memory (-fcheck=mem).
 set(gfb_release -O2 -g1 -fcheck=mem)
 # Stacks may be small: what is large, such as a scene, a bearing or its solver, is allocated [bytes]. Tests are no concern.
+# From its release 13 on gfortran keeps the first values of each type that a procedure allocates there, too.
 set(gfb_frame -Wframe-larger-than=20000)
+if(CMAKE_Fortran_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  set(gfb_frame -Wframe-larger-than=40000)
+endif()
 
 # What the sanitizers find ends the program. Pointers that are followed are checked by the address sanitizer alone; products of
 # integers not at all, as gfortran multiplies bounds of descriptors that are not set yet and drops the product. So, and without
