@@ -286,9 +286,6 @@ contains
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
     bearing%sparse = all(scene%model%foil /= [foil_shell, foil_plate])
-    if (scene%model%has_strips()) then
-      call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, foil%rate, bearing%pad(1)%film)
-    end if
     call create_bearing_system(bearing, foil, floats, scene%operation%moment_given, place)
     if (scene%solver%linear_solver == linear_solver_iterative) call bearing%find_motions()
     call take_film_numbers(scene, bearing)
@@ -342,7 +339,7 @@ contains
     end associate
   end function asperities_of
 
-  !> What of bore, gas and asperities is not known where the pads are created.
+  !> What of bore, strips, gas and asperities is not known where the pads are created.
   subroutine take_film_numbers(scene, bearing)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
@@ -354,6 +351,9 @@ contains
         if (scene%bearing%ramp_part > 0.0_wp .or. scene%bearing%play > 0.0_wp) then
           call put_ramp(pad%film, scene%bearing%ramp_gap(pad%film%angle - pad%whole%station_angle(1)) &
                         + merge(scene%bearing%play, 0.0_wp, pad%film%surface%facing < 0.0_wp))
+        end if
+        if (scene%model%has_strips()) then
+          call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, pad%foil%rate, pad%film)
         end if
         pad%film%interference = scene%bearing%interference
         pad%film%law = scene%gas%law

@@ -235,7 +235,7 @@ contains
     type(gas_film_type), intent(inout) :: film !! this rank's film
     integer :: element
 
-    allocate (film%softness(size(film%element_nodes, 1), size(film%element_nodes, 2)))
+    film%softness = spread(0.0_wp*film%shape(:, 1), 2, size(film%element_nodes, 2))
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element))
         associate (middle => sum(film%axial(nodes))/real(size(nodes), wp))
