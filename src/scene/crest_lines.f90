@@ -96,19 +96,17 @@ contains
   end function crests_on_pad
 
   !> Where sides of elements lie under a plate, from its leading edge: at all strips' crests, and at
-  !> the end of a ramp [rad].
-  pure function plate_sides(scene) result(angle)
+  !> kinks of the gap [rad].
+  pure function plate_sides(scene, kink) result(angle)
     type(scene_type), intent(in) :: scene !! with a plate
+    real(wp), intent(in) :: kink(:) !! of the gap [rad]
     real(wp), allocatable :: angle(:)
     type(crest_line_type), allocatable :: lines(:)
     real(wp), allocatable :: all_angles(:)
     real(wp) :: last
 
     lines = crest_lines(scene)
-    all_angles = lines%angle
-    if (scene%bearing%ramp_part > 0.0_wp) then
-      all_angles = [all_angles, scene%bearing%ramp_part*pad_angle(scene%bearing)]
-    end if
+    all_angles = [lines%angle, kink]
     allocate (angle(0))
     last = 0.0_wp
     do while (any(all_angles > last*(1.0_wp + rounding)))

@@ -1,10 +1,11 @@
 !> What a thrust bearing asks of the scene.
 module gfb_thrust_rules
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, strip_ends, needs_journal, &
-                              needs_thrust
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, strip_ends, ramp_of, &
+                              needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type
   use gfb_foil_cases, only: bump_foil_case_type, one_strip
+  use gfb_ramp_shape, only: ramp_shape_type
   use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_plate, foil_shell, &
                             foundation_pressure_local, meshes_top_foil
   use gfb_operation_case, only: operation_case_type
@@ -242,22 +243,25 @@ contains
     integer, intent(out) :: pad       !! number
     real(wp), intent(out) :: place(2) !! radius and angle [m], [rad]
     integer, parameter :: points = 500 !! of a pad
-    real(wp) :: radii(2), angle, along, here, tilted
+    type(ramp_shape_type) :: ramp
+    real(wp) :: radii(2), angle, along, opening, here, tilted
     integer :: number, i, side
 
     gap = huge(1.0_wp)
     pad = 1
     place = 0.0_wp
     radii = [bearing%inner_radius, bearing%radius]
+    ramp = ramp_of(bearing, 0.0_wp, 1.0_wp)
     do number = 1, bearing%pads
       do i = 0, points
         along = pad_angle(bearing)*real(i, wp)/real(points, wp)
         angle = bearing%leading_edge_angle + pad_turn(bearing, number) + along
+        opening = -ramp%height(along, 0.0_wp)
         do side = 1, size(radii)
           tilted = radii(side)*(operation%tilt(2)*cos(angle) - operation%tilt(1)*sin(angle))
-          here = bearing%ramp_gap(along) + operation%axial_gap + tilted
+          here = opening + operation%axial_gap + tilted
           if (bearing%play > 0.0_wp) then
-            here = min(here, bearing%ramp_gap(along) + bearing%play - operation%axial_gap - tilted)
+            here = min(here, opening + bearing%play - operation%axial_gap - tilted)
           end if
           if (here >= gap) cycle
           gap = here

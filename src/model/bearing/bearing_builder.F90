@@ -25,8 +25,10 @@ module gfb_bearing_builder
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count, any_rank
   use gfb_aligned_mesh, only: align_stations
-  use gfb_bore_profile, only: bore_kinks
-  use gfb_gas_film, only: gas_film_type, create_gas_film, put_strips, put_bore, put_ramp, freeze_film, frozen_heat_type
+  use gfb_gap_shape, only: gap_shape_item_type, kinks_of
+  use gfb_gap_shapes, only: find_shapes
+  use gfb_gap_part, only: gap_part_type
+  use gfb_gas_film, only: gas_film_type, create_gas_film, put_strips, freeze_film, frozen_heat_type
   use gfb_heat_switch, only: follow_frozen
   use gfb_solid_contact, only: solid_contact_type
   use gfb_changed_foil, only: take_foil_numbers
@@ -39,7 +41,7 @@ module gfb_bearing_builder
   use gfb_heated_film, only: heated_gas_type
   use gfb_bearing_heat, only: film_heat_type, wall_type
   use gfb_thermal_case, only: foil_sheet
-  use gfb_pad, only: pad_place_type, create_pad_film, move_crests
+  use gfb_pad, only: pad_place_type, create_pad_film, shift_pad, move_crests
   use gfb_bearing_system, only: bearing_system_type, create_bearing_system
   use gfb_mesh_case, only: linear_solver_iterative
   use gfb_mesh_dm, only: local_mesh_type
@@ -339,23 +341,23 @@ contains
     end associate
   end function asperities_of
 
-  !> What of bore, strips, gas and asperities is not known where the pads are created.
+  !> Parts of the gap, gas and asperities that are not known where the pads are created.
   subroutine take_film_numbers(scene, bearing)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
-    integer :: i
+    type(gap_shape_item_type), allocatable :: shape(:)
+    integer :: i, k
 
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
-        call put_bore(pad%film, scene%bore%profile)
-        if (scene%bearing%ramp_part > 0.0_wp .or. scene%bearing%play > 0.0_wp) then
-          call put_ramp(pad%film, scene%bearing%ramp_gap(pad%film%angle - pad%whole%station_angle(1)) &
-                        + merge(scene%bearing%play, 0.0_wp, pad%film%surface%facing < 0.0_wp))
-        end if
+        call find_shapes(scene%bearing, scene%bore, pad%whole%station_angle(1), pad%film%surface%facing, shape)
+        do k = 1, size(shape)
+          call pad%film%put_shape(shape(k)%name, shape(k)%shape)
+        end do
         if (scene%model%has_strips()) then
           call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, pad%foil%rate, pad%film)
         end if
-        pad%film%interference = scene%bearing%interference
+        call pad%film%put(gap_part_type(name='interference', level=scene%bearing%interference))
         pad%film%law = scene%gas%law
         pad%contact = asperities_of(scene)
       end associate
@@ -377,7 +379,7 @@ contains
         pad%film%clearance = scene%bearing%clearance
         pad%film%ambient_pressure = scene%gas%ambient_pressure
         pad%film%flow%viscosity = scene%gas%viscosity
-        pad%film%shift = place(i)%shift
+        call shift_pad(place(i), pad)
         call take_foil_numbers(scene, pad%whole, pad%foil)
         call move_crests(place(i), pad)
       end associate
@@ -457,21 +459,26 @@ contains
     if (.not. allocated(error)) division%film = film_columns(film, division%film)
   end subroutine divide_bearing
 
-  !> The film's mesh: equal elements but for kinks of the bore, or stations above the crests.
+  !> The film's mesh: equal elements but for kinks of the gap, or stations above the crests.
   function film_mesh_of(scene, plan) result(mesh)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(bearing_plan_type), intent(in) :: plan !! what was decided about it
     type(film_mesh_type) :: mesh
+    type(gap_shape_item_type), allocatable :: shape(:)
+    real(wp), allocatable :: kink(:) !! of a sector's gap, from its leading edge [rad]
     integer :: i
 
     associate (bearing => scene%bearing)
+      call find_shapes(bearing, scene%bore, bearing%leading_edge_angle, 1.0_wp, shape)
+      allocate (kink(0))
       if (bearing%is_thrust()) then
+        kink = kinks_of(shape, bearing%leading_edge_angle)
         mesh = sector_film_mesh([bearing%inner_radius, bearing%radius], bearing%leading_edge_angle, pad_angle(bearing), &
-                                bearing%ramp_part*pad_angle(bearing), scene%model%cut_radii, plan%circumferential, plan%axial, &
+                                kink, scene%model%cut_radii, plan%circumferential, plan%axial, &
                                 merge(1.0_wp, scene%mesh%edge_refinement, meshes_top_foil(scene%model%foil)), &
                                 scene%mesh%edge_refinement, plan%order)
         if (solves_one_pad(scene)) mesh%repeats = bearing%pads
-        if (scene%model%foil == foil_shell) call align_stations(mesh, bearing%leading_edge_angle + sector_sides(scene))
+        if (scene%model%foil == foil_shell) call align_stations(mesh, bearing%leading_edge_angle + [kink, sector_sides(scene)])
       else if (meshes_foils(scene%model%foil) .and. stations_follow_crests(scene)) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
                             bearing%length, plan%axial, plan%half, plan%order, scene%mesh%edge_refinement)
@@ -480,12 +487,12 @@ contains
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
                                  bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order, &
                                  scene%mesh%edge_refinement)
-        if (scene%bore%present .and. .not. meshes_top_foil(scene%model%foil)) then
-          call align_stations(mesh, bore_kinks(scene%bore%profile, pad_turn(bearing, [(i, i=1, bearing%pads)]), &
-                                               elements_of_a_curve*pad_angle(bearing)/real(plan%circumferential, wp)))
+        if (size(shape) > 0 .and. .not. meshes_top_foil(scene%model%foil)) then
+          call align_stations(mesh, kinks_of(shape, 0.0_wp, pad_turn(bearing, [(i, i=1, bearing%pads)]), &
+                                             elements_of_a_curve*pad_angle(bearing)/real(plan%circumferential, wp)))
         end if
       end if
-      if (scene%model%foil == foil_plate) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene))
+      if (scene%model%foil == foil_plate) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
     end associate
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
   end function film_mesh_of

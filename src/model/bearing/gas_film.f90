@@ -5,8 +5,8 @@ module gfb_gas_film
   use gfb_errors, only: error_type
   use gfb_film_geometry, only: film_geometry_type, film_geometry, widen, film_shapes, &
                                most_film_nodes
-  use gfb_bore_profile, only: bore_profile_type, bore_height, bore_kinks, kinks_between, &
-                              nearest_bore
+  use gfb_gap_part, only: gap_part_type, put_part, level_of, shift_of
+  use gfb_gap_shape, only: gap_shape_type, kinks_between
   use gfb_film_surface, only: film_surface_type, shaft_coordinates, translations, entraining_speed
   use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type, gas_factors_type
@@ -21,7 +21,7 @@ module gfb_gas_film
   use gfb_operating_point, only: operating_point_type
   implicit none (type, external)
   private
-  public :: create_gas_film, put_bore, put_ramp, put_strips, freeze_film
+  public :: create_gas_film, put_strips, freeze_film
 
   integer, parameter :: corners = 4 !! of a cell
 
@@ -42,8 +42,6 @@ module gfb_gas_film
     type(gas_law_type) :: law             !! of the gas
     type(film_surface_type) :: surface    !! that it lies on
     real(wp) :: clearance = 0.0_wp        !! C; of a ring the size of its gap [m]
-    real(wp) :: interference = 0.0_wp     !! of foil and shaft, less of the gap all around [m]
-    real(wp) :: shift(2) = 0.0_wp         !! of the pad's centre, adds to the eccentricity [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
     !> Two where half the width is meshed; of a pad that stands for all how many they are.
     real(wp) :: copies = 1.0_wp
@@ -62,14 +60,12 @@ module gfb_gas_film
     real(wp), allocatable :: motion(:, :)         !! (5, nodes) b, see `gfb_film_surface` [1], [m]
     real(wp), allocatable :: point_motion(:, :, :)  !! (5, points, elements) the same there [1], [m]
     real(wp), allocatable :: motion_excess(:, :, :) !! (5, points, elements) of them over the nodes'
-    real(wp), allocatable :: bore(:) !! off the gap: a bore that is no circle, ramps [m]
-    real(wp), allocatable :: bore_excess(:, :)    !! (points, elements) of it over the nodes' [m]
-    !> (nodes, elements) of springs that belong to elements, compliance over the nodes' [m/Pa]
-    real(wp), allocatable :: softness(:, :)
+    type(gap_part_type), allocatable :: part(:)   !! of the rigid gap
     real(wp) :: storage = 0.0_wp                  !! a_0 of a step of time, else unused [1/s]
     real(wp), allocatable :: past(:, :) !! (points, elements) rate of r h by earlier ones [Pa m/s]
     type(frozen_heat_type), allocatable :: frozen !! none: the gas has the temperature of its law
   contains
+    procedure :: put, put_shape, interference
     procedure :: flow_at, cell_flow, shadow, factors_of, element_gap, softness_of
     procedure :: gap => film_node_gap
     procedure :: excess => film_excess
@@ -112,6 +108,7 @@ contains
     film%cell_nodes = cell_nodes
     film%element_nodes = gather_elements(whole, mesh_node, cell_nodes)
     film%shape = film_shapes(size(film%element_nodes, 1))
+    allocate (film%part(0))
     allocate (film%angle(size(mesh_node)), film%axial(size(mesh_node)))
     allocate (film%direction(2, size(mesh_node)))
     allocate (film%fixed(size(mesh_node)), film%motion(shaft_coordinates, size(mesh_node)))
@@ -163,49 +160,62 @@ contains
     if (film%copies > 1.0_wp) film%force_weight(translations + 1:, :) = 0.0_wp
   end subroutine measure_elements
 
-  !> Takes the height of a bore off the rigid gap; once more where the film has moved around.
-  pure subroutine put_bore(film, profile)
-    type(gas_film_type), intent(inout) :: film !! this rank's film
-    type(bore_profile_type), intent(in) :: profile !! of the bore
+  !> Puts a part of the rigid gap in the place of the one of its name, or behind all others.
+  pure subroutine put(self, part)
+    class(gas_film_type), intent(inout) :: self !! this rank's film
+    type(gap_part_type), intent(in) :: part !! with a name
+    call put_part(part, self%part)
+  end subroutine put
+
+  !> Takes a shape off the rigid gap; once more where the film has moved around.
+  pure subroutine put_shape(self, name, shape)
+    class(gas_film_type), intent(inout) :: self !! this rank's film
+    character(len=*), intent(in) :: name !! of the part
+    class(gap_shape_type), intent(in) :: shape !! what it takes off
+    type(gap_part_type) :: part
     real(wp), allocatable :: kink(:)
     integer :: element, i
 
-    if (.not. profile%present()) return
-    film%bore = [(bore_height(profile, film%angle(i)), i=1, size(film%angle))]
-    film%bore_excess = spread([(0.0_wp, i=1, size(film%shape, 2))], 2, size(film%element_nodes, 2))
-    kink = bore_kinks(profile)
-    do element = 1, size(film%element_nodes, 2)
-      associate (nodal => film%bore(film%element_nodes(:, element)))
-        film%bore_excess(:, element) = bore_at_points(film, profile, kink, element) &
-          - [(dot_product(film%shape(:, i), nodal), i=1, size(film%shape, 2))]
-      end associate
-    end do
-  end subroutine put_bore
+    part%name = name
+    part%height = [(shape%height(self%angle(i), self%axial(i)), i=1, size(self%angle))]
+    if (.not. shape%on_sides) then
+      part%excess = spread(0.0_wp*self%shape(1, :), 2, size(self%element_nodes, 2))
+      kink = shape%rising_kinks()
+      do element = 1, size(self%element_nodes, 2)
+        associate (nodal => part%height(self%element_nodes(:, element)))
+          part%excess(:, element) = height_at_points(self, shape, kink, element) &
+            - [(dot_product(self%shape(:, i), nodal), i=1, size(self%shape, 2))]
+        end associate
+      end do
+    end if
+    call self%put(part)
+  end subroutine put_shape
 
-  !> Height of the bore at the Gauss points of an element; of kinks inside it what they are in the
+  !> Heights of a shape at the Gauss points of an element; of kinks inside it what they are in the
   !> mean.
-  pure function bore_at_points(film, profile, kink, element) result(height)
+  pure function height_at_points(film, shape, kink, element) result(height)
     type(gas_film_type), intent(in) :: film
-    type(bore_profile_type), intent(in) :: profile
+    class(gap_shape_type), intent(in) :: shape
     real(wp), intent(in) :: kink(:) !! all its kinks, rising [rad]
     integer, intent(in) :: element
     real(wp) :: height(size(film%shape, 2)) !! [m]
-    real(wp) :: angle(size(film%shape, 1))
+    real(wp) :: angle(size(film%shape, 1)), along(size(film%shape, 2))
     real(wp), allocatable :: inside(:)
     integer :: i
 
     angle = unwound_angles(film, element)
+    along = matmul(film%axial(film%element_nodes(:, element)), film%shape)
     associate (ends => [minval(angle), maxval(angle)], motion => film%point_motion(:, :, element))
       inside = kinks_between(kink, ends)
       if (size(inside) > 0) then
-        height = nearest_bore(profile, ends, inside, nint(sqrt(real(size(angle), wp))) - 1, &
-                              matmul(angle, film%shape))
+        height = shape%in_element(ends, inside, nint(sqrt(real(size(angle), wp))) - 1, &
+                               matmul(angle, film%shape), along)
       else
         ! The first of the motions are cosine and sine of the angle.
-        height = [(bore_height(profile, atan2(motion(2, i), motion(1, i))), i=1, size(height))]
+        height = [(shape%height(atan2(motion(2, i), motion(1, i)), along(i)), i=1, size(height))]
       end if
     end associate
-  end function bore_at_points
+  end function height_at_points
 
   !> Angles of an element's nodes; the element that closes a ring reaches beyond the last station.
   pure function unwound_angles(film, element) result(angle)
@@ -217,14 +227,11 @@ contains
     where (maxval(angle) - angle > pi) angle = angle + 2.0_wp*pi
   end function unwound_angles
 
-  !> Adds a ramp to the rigid gap. Its end is a side of elements: shape functions have it right.
-  pure subroutine put_ramp(film, height)
-    type(gas_film_type), intent(inout) :: film !! this rank's film
-    real(wp), intent(in) :: height(:) !! at the nodes [m]
-
-    film%bore = -height
-    film%bore_excess = spread(0.0_wp*film%shape(1, :), 2, size(film%element_nodes, 2))
-  end subroutine put_ramp
+  !> What parts take off the gap all around [m].
+  pure real(wp) function interference(self)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    interference = -level_of(self%part, 0.0_wp)
+  end function interference
 
   !> Gives springs side by side their own stiffness, that of elements: at a cut the deflection
   !> jumps.
@@ -233,16 +240,19 @@ contains
     real(wp), intent(in) :: stiffness(:) !! of the strips, from the inside [N/m3]
     real(wp), intent(in) :: rate(:)      !! of the nodes, deflection over pressure [m/Pa]
     type(gas_film_type), intent(inout) :: film !! this rank's film
+    type(gap_part_type) :: part
     integer :: element
 
-    film%softness = spread(0.0_wp*film%shape(:, 1), 2, size(film%element_nodes, 2))
+    part%name = 'strips'
+    part%softness = spread(0.0_wp*film%shape(:, 1), 2, size(film%element_nodes, 2))
     do element = 1, size(film%element_nodes, 2)
       associate (nodes => film%element_nodes(:, element))
         associate (middle => sum(film%axial(nodes))/real(size(nodes), wp))
-          film%softness(:, element) = 1.0_wp/stiffness(1 + count(cuts < middle)) - rate(nodes)
+          part%softness(:, element) = 1.0_wp/stiffness(1 + count(cuts < middle)) - rate(nodes)
         end associate
       end associate
     end do
+    call film%put(part)
   end subroutine put_strips
 
   !> Compliance of an element's springs over that of its nodes [m/Pa].
@@ -250,9 +260,13 @@ contains
     class(gas_film_type), intent(in) :: self !! this rank's film
     integer, intent(in) :: element !! of this rank
     real(wp) :: softness(size(self%shape, 1))
+    integer :: i
 
     softness = 0.0_wp
-    if (allocated(self%softness)) softness = self%softness(:, element)
+    do i = 1, size(self%part)
+      if (.not. allocated(self%part(i)%softness)) cycle
+      softness = softness + self%part(i)%softness(:, element)
+    end do
   end function softness_of
 
   !> Gap at an element's nodes, as it is inside it [m].
@@ -262,12 +276,15 @@ contains
     real(wp), intent(in) :: pressure(:) !! at the nodes of this rank [Pa]
     real(wp), intent(in) :: gap(:)      !! at the nodes of this rank [m]
     real(wp) :: inside(size(self%shape, 1))
+    integer :: i
 
     associate (nodes => self%element_nodes(:, element))
       inside = gap(nodes)
-      if (allocated(self%softness)) then
-        inside = inside + self%softness(:, element)*(pressure(nodes) - self%ambient_pressure)
-      end if
+      do i = 1, size(self%part)
+        if (.not. allocated(self%part(i)%softness)) cycle
+        inside = inside &
+          + self%part(i)%softness(:, element)*(pressure(nodes) - self%ambient_pressure)
+      end do
     end associate
   end function element_gap
 
@@ -288,6 +305,8 @@ contains
       factors(:, element) = gas_factors(frozen%gas, state, n)
     end do
     film%frozen = frozen_heat_type(frozen%gas, frozen%field, frozen%centrifugal, factors)
+    call film%put(gap_part_type(name='growth', height=frozen%field(:, frozen_growth), &
+                                by_speed=frozen%centrifugal))
     film%law = frozen%gas%law
     film%law%plain = .false.
   end subroutine freeze_film
@@ -390,17 +409,19 @@ contains
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(in) :: deflection(:) !! of the foil, away from the shaft [m]
     real(wp) :: gap(size(deflection)), eccentricity(2)
+    integer :: i
 
-    eccentricity = point%place(:2) + self%shift
+    eccentricity = shift_of(self%part, point%place(:2))
     gap = deflection + self%surface%gap(self%direction(1, :), self%direction(2, :), self%axial, &
-                                        self%clearance*self%surface%cosine - self%interference, &
-                                        eccentricity(1), &
-                                        eccentricity(2), point%place(3), point%place(4), &
-                                        point%place(5))
-    if (allocated(self%bore)) gap = gap - self%bore
-    if (allocated(self%frozen)) then
-      gap = gap - self%frozen%field(:, frozen_growth) - self%frozen%centrifugal*point%speed**2
-    end if
+                                        level_of(self%part, self%clearance*self%surface%cosine), &
+                                        eccentricity(1), eccentricity(2), point%place(3), &
+                                        point%place(4), point%place(5))
+    do i = 1, size(self%part)
+      associate (part => self%part(i))
+        if (allocated(part%height)) gap = gap - part%height
+        if (abs(part%by_speed) > 0.0_wp) gap = gap - part%by_speed*point%speed**2
+      end associate
+    end do
   end function film_node_gap
 
   !> What the rigid gap at an element's Gauss points has beyond what its nodal values give [m].
@@ -409,18 +430,21 @@ contains
     integer, intent(in) :: element !! of this rank
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp) :: excess(most_film_nodes) !! the first ones are its points'
+    real(wp) :: eccentricity(2)
     integer :: i
 
     excess = 0.0_wp
+    eccentricity = shift_of(self%part, point%place(:2))
     do i = 1, size(self%shape, 2)
       associate (motion => self%motion_excess(:, i, element))
-        excess(i) = dot_product(point%place(:2) + self%shift, motion(1:2)) &
+        excess(i) = dot_product(eccentricity, motion(1:2)) &
           + point%place(5)*motion(5) + point%place(4)*motion(4) + point%place(3)*motion(3)
       end associate
     end do
-    if (allocated(self%bore)) then
-      excess(:size(self%shape, 2)) = excess(:size(self%shape, 2)) - self%bore_excess(:, element)
-    end if
+    do i = 1, size(self%part)
+      if (.not. allocated(self%part(i)%excess)) cycle
+      excess(:size(self%shape, 2)) = excess(:size(self%shape, 2)) - self%part(i)%excess(:, element)
+    end do
   end function film_excess
 
   !> Whether gap and pressure are positive at this rank's nodes and Gauss points; not so for NaN.

@@ -25,10 +25,11 @@ module gfb_pad
   use gfb_bump_contacts, only: contact_top
   use gfb_cost_events, only: cost_events_type
   use gfb_operating_point, only: operating_point_type
+  use gfb_gap_part, only: gap_part_type
   use gfb_gas_film, only: gas_film_type, create_gas_film
   implicit none (type)
   private
-  public :: create_pad_film, complete_pad, place_pads, move_crests
+  public :: create_pad_film, complete_pad, place_pads, shift_pad, move_crests
 
   !> This rank's nodes of the free edge; none where the top foil has none.
   type, public :: free_edge_type
@@ -300,7 +301,7 @@ contains
     type(pad_type), allocatable :: all_pads(:)
     integer :: i
 
-    pads(1)%film%shift = place(1)%shift
+    call shift_pad(place(1), pads(1))
     if (size(place) == 1) return
     allocate (all_pads(size(place)))
     all_pads(1) = pads(1)
@@ -336,9 +337,16 @@ contains
                            film%flow%viscosity, film%flow%upwind, pad%film, error)
     end associate
     if (allocated(error)) error stop 'a pad that is equal to a good one is not'
-    pad%film%shift = place%shift
+    call shift_pad(place, pad)
     call move_crests(place, pad)
   end subroutine create_equal_pad
+
+  !> Shifts the centre of a pad's film to its place.
+  pure subroutine shift_pad(place, pad)
+    type(pad_place_type), intent(in) :: place !! of the pad
+    type(pad_type), intent(inout) :: pad !! with a film
+    call pad%film%put(gap_part_type(name='shift', shift=place%shift))
+  end subroutine shift_pad
 
   !> Gives the crests of a pad, which has the first one's gaps, its own.
   subroutine move_crests(place, pad)

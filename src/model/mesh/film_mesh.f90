@@ -116,13 +116,13 @@ contains
   end function film_mesh_at
 
   !> Mesh of a sector: stations along the motion, rows from the inner to the outer radius; both
-  !> graded towards the edges, with sides of elements where the ramp ends and where strips meet.
-  pure function sector_film_mesh(radii, leading_edge_angle, pad_angle, ramp_end, cuts, &
+  !> graded towards the edges, with sides of elements where the gap has kinks and where strips meet.
+  pure function sector_film_mesh(radii, leading_edge_angle, pad_angle, kink, cuts, &
                                  circumferential, radial, along, refinement, order) result(mesh)
     real(wp), intent(in) :: radii(2)           !! inner and outer one [m]
     real(wp), intent(in) :: leading_edge_angle !! theta_0 [rad]
     real(wp), intent(in) :: pad_angle          !! from leading to trailing edge [rad]
-    real(wp), intent(in) :: ramp_end           !! from the leading edge; 0: there is no ramp [rad]
+    real(wp), intent(in) :: kink(:)            !! of the gap, from the leading edge, rising [rad]
     real(wp), intent(in) :: cuts(:)            !! radii where strips meet, rising [m]
     integer, intent(in) :: circumferential     !! elements along the motion
     integer, intent(in) :: radial              !! elements along the radius
@@ -139,7 +139,7 @@ contains
     call put_sides_on(cuts, order, radius)
     angle = 0.5_wp*pad_angle + axial_rows(pad_angle, circumferential, .false., along, order)
     angle([1, size(angle)]) = [0.0_wp, pad_angle]
-    call put_sides_on([ramp_end], order, angle)
+    call put_sides_on(kink, order, angle)
     mesh%row_axial = radius
     mesh%station_angle = leading_edge_angle + angle
   end function sector_film_mesh

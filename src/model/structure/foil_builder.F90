@@ -69,18 +69,15 @@ contains
   end function plate_stations
 
   !> Where sides of elements lie over the bumps of a sector, from its leading edge: at crests, where those of all strips are on the
-  !> same rays, and at the end of the ramp [rad].
+  !> same rays [rad].
   function sector_sides(scene) result(angle)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     real(wp), allocatable :: angle(:)
 
     allocate (angle(0))
-    associate (bearing => scene%bearing)
-      if (bearing%ramp_part > 0.0_wp) angle = [bearing%ramp_part*pad_angle(bearing)]
-      if (scene%mesh%align_crests .and. scene%bump_foil%strip_form == strip_curved) then
-        angle = [angle, crest_positions(shape_on_pad(scene))/bearing%radius]
-      end if
-    end associate
+    if (scene%mesh%align_crests .and. scene%bump_foil%strip_form == strip_curved) then
+      angle = crest_positions(shape_on_pad(scene))/scene%bearing%radius
+    end if
   end function sector_sides
 
   !> Whether the stations are those of `plate_stations`, counted from crest to crest; of a sector they are moved to the crests.

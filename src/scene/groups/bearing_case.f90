@@ -6,11 +6,12 @@ module gfb_bearing_case
   use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive, &
                            longest_list, any_value, not_negative, rule_type, unless
   use gfb_text, only: text
-  use gfb_bore_profile, only: bore_profile_type, bore_height, bore_peak
+  use gfb_bore_profile, only: bore_profile_type
+  use gfb_ramp_shape, only: ramp_shape_type, ramp_shape
   implicit none (type, external)
   private
   public :: bearing_case_type, bore_case_type, read_bearing_case, read_pads_case, read_bore_case
-  public :: read_ramp_case
+  public :: read_ramp_case, ramp_of
   public :: pad_angle, pad_length, strip_length, strip_ends, middle_radius, pad_turn, preload_angle
 
   integer, parameter, public :: kind_journal = 1 !! a cylinder around the shaft
@@ -47,7 +48,7 @@ module gfb_bearing_case
     real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
     real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
   contains
-    procedure :: is_thrust, ramp_gap, all_pads
+    procedure :: is_thrust, all_pads
   end type bearing_case_type
 
   !> The bore.
@@ -125,15 +126,15 @@ contains
     pads = self%pads*merge(2, 1, self%play > 0.0_wp)
   end function all_pads
 
-  !> What the ramp adds to the gap, from the pad's leading edge on [m].
-  elemental real(wp) function ramp_gap(self, angle) result(gap)
-    class(bearing_case_type), intent(in) :: self !! what `&bearing`, `&pads` and `&ramp` ask for
-    real(wp), intent(in) :: angle !! from the leading edge [rad]
+  !> The ramp of a pad, and the play on the runner's other side.
+  pure type(ramp_shape_type) function ramp_of(bearing, leading_edge, facing) result(ramp)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing`, `&pads` and `&ramp` ask for
+    real(wp), intent(in) :: leading_edge !! where the pad begins [rad]
+    real(wp), intent(in) :: facing !! -1: it is on the runner's other side [1]
 
-    gap = 0.0_wp
-    if (.not. self%ramp_part > 0.0_wp) return
-    gap = self%ramp_height*max(0.0_wp, 1.0_wp - angle/(self%ramp_part*pad_angle(self)))
-  end function ramp_gap
+    ramp = ramp_shape(leading_edge, bearing%ramp_part*pad_angle(bearing), bearing%ramp_height, &
+                      merge(bearing%play, 0.0_wp, facing < 0.0_wp))
+  end function ramp_of
 
   !> Angle that the pad covers [rad].
   elemental real(wp) function pad_angle(bearing) result(angle)
@@ -320,7 +321,7 @@ contains
                      'profile_angle is needed: the group says nothing of the bore')
       return
     end if
-    peak = bore_peak(bore%profile)
+    peak = bore%profile%peak()
     if (.not. bearing%clearance > 0.0_wp) return
     if (peak >= bearing%clearance) then
       call keys%complain(bore_group, highest_key(bore%profile), 'makes the bore '//text(peak, 4)// &
@@ -346,7 +347,7 @@ contains
         angle = bearing%leading_edge_angle + pad_turn(bearing, pad) &
           + pad_angle(bearing)*real(i, wp)/real(points, wp)
         shift = bearing%preload*cos(angle - preload_angle(bearing, pad))
-        gap = min(gap, bearing%clearance*(1.0_wp - shift) - bore_height(profile, angle))
+        gap = min(gap, bearing%clearance*(1.0_wp - shift) - profile%height(angle, 0.0_wp))
       end do
     end do
   end function least_gap

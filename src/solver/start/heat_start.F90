@@ -20,7 +20,7 @@ module gfb_heat_start
   use gfb_newton, only: renew_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_saved_state, only: saved_state_type
-  use gfb_start_position, only: solve_at
+  use gfb_start_position, only: solve_at, set_interference
   use gfb_start_problem, only: start_problem_type, trial_settings, first_step
   use gfb_answer_transfer, only: transfer_answer
   implicit none (type)
@@ -45,7 +45,7 @@ contains
 
     associate (bearing => problem%bearing, newton => problem%newton)
       call newton%log%stage('heat')
-      bearing%pad%film%interference = problem%scene%bearing%interference
+      call set_interference(bearing, problem%scene%bearing%interference)
       call add_heat(bearing, heat_of(problem%scene))
       call renew_newton(newton, bearing, 'bearing_')
       bearing%point%growth = 0.0_wp

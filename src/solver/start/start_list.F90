@@ -14,6 +14,7 @@ module gfb_start_list
                                clearance_of, trial_settings, usual_eccentricity, first_step
   use gfb_saved_state, only: saved_state_type
   use gfb_newton, only: find_determinant_sign, newton_type, newton_report_type, solve_newton
+  use gfb_start_position, only: set_interference
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
   use gfb_film_surface, only: translations
   use gfb_contactless_start, only: try_from_rest, try_laid_down, try_from_gap
@@ -25,8 +26,7 @@ module gfb_start_list
                          steps_given_up
   implicit none (type)
   private
-  public :: starts_of, soft_starts_of, start_name, try_start, try_starts, start_pressed, close_interference, &
-            set_interference
+  public :: starts_of, soft_starts_of, start_name, try_start, try_starts, start_pressed, close_interference
 
   integer, parameter, public :: start_smaller_answer = 1
   integer, parameter, public :: start_smaller_end = 2
@@ -445,11 +445,4 @@ contains
     class(interference_path_type), intent(inout) :: self !! the path
     search_gives_up = gives_up(self%newton%settings%bound)
   end function search_gives_up
-
-  !> Takes an interference off the gap of all pads.
-  subroutine set_interference(bearing, interference)
-    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
-    real(wp), intent(in) :: interference !! of the shaft [m]
-    bearing%pad%film%interference = interference
-  end subroutine set_interference
 end module gfb_start_list

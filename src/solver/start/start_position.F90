@@ -8,17 +8,18 @@ module gfb_start_position
   use gfb_petsc_session, only: largest_over_ranks, sum_over_ranks
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_bore_profile, only: bore_peak
   use gfb_film_load, only: acts_on, film_forces
   use gfb_film_surface, only: translations
   use gfb_solid_contact, only: contact_pressure
+  use gfb_gap_part, only: gap_part_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_room, only: undeflected_gap
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   implicit none (type)
   private
-  public :: guess_position, place_shaft, find_position, release_shaft, solve_at, put_at_rest
+  public :: guess_position, place_shaft, find_position, release_shaft, solve_at, put_at_rest, &
+            set_interference
 
   real(wp), parameter :: start_attitude = 0.5_wp !! of a position that is not given [rad]
   real(wp), parameter, public :: room_at_rest = 0.75_wp  !! largest approach to the sleeve to begin with, over the clearance [1]
@@ -150,8 +151,8 @@ contains
     bearing%point%place(:2) = target%place(:2)
     if (.not. bearing%floats) return
     if (.not. scene%operation%eccentricity_given) then
-      free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(bore_peak(scene%bore%profile), 0.0_wp) &
-        - bearing%pad(1)%film%interference - 0.5_wp*scene%bearing%length*norm2(target%place(4:5))
+      free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(scene%bore%profile%peak(), 0.0_wp) &
+        - bearing%pad(1)%film%interference() - 0.5_wp*scene%bearing%length*norm2(target%place(4:5))
       direction = start_attitude
       if (norm2(target%load(:2)) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%place(:2) = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
@@ -161,6 +162,17 @@ contains
     end if
     call place_shaft(bearing, (bearing%point%place(:2))) ! a copy: it is overwritten
   end subroutine guess_position
+
+  !> Takes an interference off the gap of all pads.
+  subroutine set_interference(bearing, interference)
+    type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
+    real(wp), intent(in) :: interference !! of the shaft [m]
+    integer :: i
+
+    do i = 1, size(bearing%pad)
+      call bearing%pad(i)%film%put(gap_part_type(name='interference', level=interference))
+    end do
+  end subroutine set_interference
 
   !> Puts a shaft that finds its own position somewhere to begin with.
   subroutine place_shaft(bearing, position)

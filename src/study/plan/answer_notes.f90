@@ -11,7 +11,8 @@ module gfb_answer_notes
   use gfb_text, only: text
   use gfb_aligned_mesh, only: kinks_inside
   use gfb_bearing_case, only: pad_turn
-  use gfb_bore_profile, only: bore_kinks, bore_peak
+  use gfb_gap_shape, only: gap_shape_item_type, kinks_of
+  use gfb_gap_shapes, only: find_shapes
   use gfb_film_mesh, only: film_mesh_type
   use gfb_gas_law, only: gas_law_type, density_table
   use gfb_scene, only: scene_type
@@ -158,14 +159,18 @@ contains
     type(film_mesh_type), intent(in) :: mesh
     type(run_log_type), intent(in) :: log
     character(len=:), allocatable :: words
+    type(gap_shape_item_type), allocatable :: shape(:)
     integer :: on_pad, inside, i
 
     associate (profile => scene%bore%profile)
-      words = 'bore             up to '//text(bore_peak(profile)*1.0e6_wp, 4)// &
-              ' um over the circle, '//text(bore_peak(profile)/scene%bearing%clearance, 3)// &
+      words = 'bore             up to '//text(profile%peak()*1.0e6_wp, 4)// &
+              ' um over the circle, '//text(profile%peak()/scene%bearing%clearance, 3)// &
               ' of the clearance'
-      call kinks_inside(mesh, bore_kinks(profile, &
-                                         pad_turn(scene%bearing, [(i, i=1, scene%bearing%pads)])), &
+    end associate
+    associate (bearing => scene%bearing)
+      call find_shapes(bearing, scene%bore, bearing%leading_edge_angle, 1.0_wp, shape)
+      call kinks_inside(mesh, kinks_of(shape, 0.0_wp, pad_turn(bearing, &
+                                                               [(i, i=1, bearing%pads)])), &
                         on_pad, inside)
     end associate
     if (on_pad > 0 .and. inside == 0) then
