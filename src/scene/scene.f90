@@ -7,7 +7,7 @@ module gfb_scene
                              read_modes_case, part_top_foil, read_output_case, read_sample_case, &
                              read_sensitivity_case
   use gfb_bearing_case, only: bearing_case_type, bore_case_type, read_bearing_case, &
-                              read_pads_case, read_bore_case, read_ramp_case, needs_journal
+                              read_pads_case, read_bore_case, read_ramp_case
   use gfb_foil_cases, only: bump_foil_case_type, read_bump_foil_case, top_foil_case_type, &
                             read_top_foil_case
   use gfb_contact_case, only: contact_case_type, read_contact_case, shaft_contact_case_type, &
@@ -96,7 +96,6 @@ contains
       misplaced = misplaced_group(analysis, is_bearing(analysis))
       call read_pads_case(keys, scene%bearing, misplaced)
       call read_ramp_case(keys, scene%bearing, misplaced)
-      if (misplaced == '') misplaced = unless(.not. scene%bearing%is_thrust(), needs_journal)
       call read_bore_case(keys, scene%bore, scene%bearing, misplaced)
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)

@@ -338,7 +338,8 @@ contains
   pure logical function solves_one_pad(scene) result(one)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     one = scene%bearing%is_thrust() .and. .not. (scene%operation%moment_given .or. &
-      tilts(scene%operation, scene%sweep) .or. scene%bump_foil%random%deviation > 0.0_wp)
+      tilts(scene%operation, scene%sweep) .or. scene%bump_foil%random%deviation > 0.0_wp .or. &
+      scene%bore%present)
   end function solves_one_pad
 
   !> Whether a point of the scene is tilted.

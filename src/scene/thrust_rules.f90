@@ -1,11 +1,12 @@
 !> What a thrust bearing asks of the scene.
 module gfb_thrust_rules
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, strip_ends, ramp_of, &
+  use gfb_bearing_case, only: bearing_case_type, bore_case_type, pad_angle, pad_turn, strip_ends, &
                               needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type
   use gfb_foil_cases, only: bump_foil_case_type, one_strip
-  use gfb_ramp_shape, only: ramp_shape_type
+  use gfb_gap_shape, only: gap_shape_item_type, height_of
+  use gfb_gap_shapes, only: find_shapes
   use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_plate, foil_shell, &
                             foundation_pressure_local, meshes_top_foil
   use gfb_operation_case, only: operation_case_type
@@ -94,10 +95,11 @@ contains
     end associate
   end subroutine check_play
 
-  !> Whether the film narrows along the motion somewhere: by a ramp, or a tilt.
+  !> Whether the film narrows along the motion somewhere: by a ramp, a profile, or a tilt.
   pure logical function bearing_wedges(scene) result(wedges)
     type(scene_type), intent(in) :: scene
-    wedges = scene%bearing%ramp_part > 0.0_wp .or. scene%operation%moment_given .or. &
+    wedges = scene%bearing%ramp_part > 0.0_wp .or. scene%bore%present .or. &
+      scene%operation%moment_given .or. &
       any(abs(scene%operation%tilt) > 0.0_wp) .or. any(scene%sweep%parameter == [sweep_tilt_x, &
       sweep_tilt_y]) .or. scene%operation%tilt_is_sought
   end function bearing_wedges
@@ -226,7 +228,7 @@ contains
       real(wp) :: gap, place(2) !! smallest one [m]; radius, angle [m], [rad]
       integer :: pad
 
-      call find_smallest_gap(scene%bearing, operation, gap, pad, place)
+      call find_smallest_gap(scene%bearing, scene%bore, operation, gap, pad, place)
       call keys%rule(group, key, .not. gap > 0.0_wp, 'leaves a gap of '//text(gap, 4)//' m on '// &
                      'pad '//text(pad)//', at radius '//text(place(1), 4)//' m and '// &
                      text(place(2)*degrees, 4)//' deg, which must be positive in a rigid bearing', &
@@ -236,32 +238,36 @@ contains
 
   !> Where the gap of rigid pads is smallest: at an inner or outer edge, since it is linear along
   !> the radius.
-  pure subroutine find_smallest_gap(bearing, operation, gap, pad, place)
+  pure subroutine find_smallest_gap(bearing, bore, operation, gap, pad, place)
     type(bearing_case_type), intent(in) :: bearing
+    type(bore_case_type), intent(in) :: bore
     type(operation_case_type), intent(in) :: operation
     real(wp), intent(out) :: gap      !! [m]
     integer, intent(out) :: pad       !! number
     real(wp), intent(out) :: place(2) !! radius and angle [m], [rad]
     integer, parameter :: points = 500 !! of a pad
-    type(ramp_shape_type) :: ramp
-    real(wp) :: radii(2), angle, along, opening, here, tilted
+    type(gap_shape_item_type), allocatable :: shape(:), opposite(:)
+    real(wp) :: radii(2), angle, leading, here, tilted
     integer :: number, i, side
 
     gap = huge(1.0_wp)
     pad = 1
     place = 0.0_wp
     radii = [bearing%inner_radius, bearing%radius]
-    ramp = ramp_of(bearing, 0.0_wp, 1.0_wp)
     do number = 1, bearing%pads
+      leading = bearing%leading_edge_angle + pad_turn(bearing, number)
+      call find_shapes(bearing, bore, leading, 1.0_wp, shape)
+      call find_shapes(bearing, bore, leading, -1.0_wp, opposite)
       do i = 0, points
-        along = pad_angle(bearing)*real(i, wp)/real(points, wp)
-        angle = bearing%leading_edge_angle + pad_turn(bearing, number) + along
-        opening = -ramp%height(along, 0.0_wp)
+        angle = leading + pad_angle(bearing)*real(i, wp)/real(points, wp)
         do side = 1, size(radii)
           tilted = radii(side)*(operation%tilt(2)*cos(angle) - operation%tilt(1)*sin(angle))
-          here = opening + operation%axial_gap + tilted
+          here = operation%axial_gap + tilted
           if (bearing%play > 0.0_wp) then
-            here = min(here, opening + bearing%play - operation%axial_gap - tilted)
+            here = min(here - height_of(shape, angle, radii(side)), &
+                       -here - height_of(opposite, angle, radii(side)))
+          else
+            here = here - height_of(shape, angle, radii(side))
           end if
           if (here >= gap) cycle
           gap = here

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Thrust bearings, rigid and on springs: closed forms, an independent solution, one pad against all, turned bearings, differences
-of forces and of answers, strips side by side, limits, ranks.
+of forces and of answers, profiles of pads, strips side by side, limits, ranks.
 
 `--long` has all rows of the reference."""
 
@@ -177,6 +177,32 @@ def check_differences(checks, folder):
                  derived["d_axial_gap_d_operation_axial_load"] - 1.0, 1.0e-7)
 
 
+def check_profiles(checks, folder):
+    """Pads whose measured profile is a wedge are those with a ramp, and so are pads with some of both; derivatives by either."""
+    starts = [2.0*math.pi*pad/PADS for pad in range(PADS)]
+    angles = [start + share*ARC for start in starts for share in (0.0, 0.5, 1.0)]
+
+    def pads(profile, ramp, **more):
+        groups = thrust({"axial_load": 150.0}, "equilibrium", SPRINGS, **TIGHT, **more)
+        bore = {"profile_angle": angles, "profile_height": [-profile, 0.0, 0.0]*PADS}
+        groups = groups | {"ramp": {"part": 0.5, "height": ramp}} | ({"bore": bore} if profile > 0.0 else {})
+        return {name: keys for name, keys in groups.items() if name != "ramp" or ramp > 0.0}
+
+    ramp, wedge, both = (solve(folder, "profile", pads(*heights)) for heights in ((0.0, 2.0e-5), (2.0e-5, 0.0), (5.0e-6, 1.5e-5)))
+    for quantity in ("axial_gap", "friction_torque", "minimum_gap"):
+        checks.below(f"pads with a wedge as their profile and pads with a ramp: {quantity}", wedge[quantity]/ramp[quantity] - 1.0, 1.0e-9)
+        checks.below(f"pads with a part of the ramp in their profile: {quantity}", both[quantity]/ramp[quantity] - 1.0, 1.0e-9)
+    held = {"axial_gap": 1.2e-5}
+    waves = {"waves": 2*PADS, "wave_amplitude": 2.0e-6, "wave_angle": 0.3}
+    derived = solve(folder, "derived", thrust(held, bore=waves, sensitivity={
+        "quantity": "axial_force", "parameters": ("bore%wave_amplitude", "ramp%height")}, **TIGHT))
+    for group, name, value in (("bore", "wave_amplitude", 2.0e-6), ("ramp", "height", 2.0e-5)):
+        ahead, behind = (solve(folder, "moved", thrust(held, **({"bore": waves} | {group: {"bore": waves, "ramp": {}}[group] | {
+            name: value*(1.0 + step)}}), **TIGHT))["axial_force"] for step in (1.0e-4, -1.0e-4))
+        found = derived[f"d_axial_force_d_{group}_{name}"]*2.0e-4*value
+        checks.below(f"axial force by {group}%{name}, of waves on ramps, against differences", found/(ahead - behind) - 1.0, 1.0e-5)
+
+
 def check_rotor(checks, folder):
     """A heavy rotor moves along its axis as stiffness and damping at its frequency say."""
     held = {"axial_gap": 9.0e-6}
@@ -255,6 +281,7 @@ def main():
             check_order(checks, folder)
             check_one_pad(checks, folder)
             check_differences(checks, folder)
+            check_profiles(checks, folder)
             check_rotor(checks, folder)
             check_strips(checks, folder)
             check_limits(checks, folder)

@@ -20,7 +20,7 @@ module gfb_gap_shape
   !> A shape. One without procedures of its own has no height.
   type, abstract, public :: gap_shape_type
     logical :: of_each_pad = .false. !! it begins anew on every pad; else it lies around the circle
-    !> all kinks are sides of elements: shape functions have it right, whatever lies between nodes
+    !> it is straight between its kinks: where sides of elements lie on them shape functions have it
     logical :: on_sides = .false.
   contains
     procedure :: smooth => no_height

@@ -20,7 +20,7 @@ module gfb_ramp_shape
 
 contains
 
-  !> A ramp, whose end is a side of elements.
+  !> A ramp.
   pure function ramp_shape(leading_edge, arc, opening, land) result(ramp)
     real(wp), intent(in) :: leading_edge !! where it begins [rad]
     real(wp), intent(in) :: arc !! of the ramp; 0: there is none [rad]

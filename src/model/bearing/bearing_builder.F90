@@ -24,7 +24,7 @@ module gfb_bearing_builder
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns, strip_chain
   use gfb_petsc_session, only: rank_count, any_rank
-  use gfb_aligned_mesh, only: align_stations
+  use gfb_aligned_mesh, only: align_stations, align_graded
   use gfb_gap_shape, only: gap_shape_item_type, kinks_of
   use gfb_gap_shapes, only: find_shapes
   use gfb_gap_part, only: gap_part_type
@@ -472,13 +472,16 @@ contains
       call find_shapes(bearing, scene%bore, bearing%leading_edge_angle, 1.0_wp, shape)
       allocate (kink(0))
       if (bearing%is_thrust()) then
-        kink = kinks_of(shape, bearing%leading_edge_angle)
+        do i = 1, size(shape)
+          if (shape(i)%shape%of_each_pad) kink = [kink, kinks_of(shape(i:i), bearing%leading_edge_angle)]
+        end do
         mesh = sector_film_mesh([bearing%inner_radius, bearing%radius], bearing%leading_edge_angle, pad_angle(bearing), &
                                 kink, scene%model%cut_radii, plan%circumferential, plan%axial, &
                                 merge(1.0_wp, scene%mesh%edge_refinement, meshes_top_foil(scene%model%foil)), &
                                 scene%mesh%edge_refinement, plan%order)
         if (solves_one_pad(scene)) mesh%repeats = bearing%pads
         if (scene%model%foil == foil_shell) call align_stations(mesh, bearing%leading_edge_angle + [kink, sector_sides(scene)])
+        if (scene%bore%present .and. .not. meshes_top_foil(scene%model%foil)) call align_graded(mesh, all_kinks())
       else if (meshes_foils(scene%model%foil) .and. stations_follow_crests(scene)) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
                             bearing%length, plan%axial, plan%half, plan%order, scene%mesh%edge_refinement)
@@ -488,13 +491,25 @@ contains
                                  bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order, &
                                  scene%mesh%edge_refinement)
         if (size(shape) > 0 .and. .not. meshes_top_foil(scene%model%foil)) then
-          call align_stations(mesh, kinks_of(shape, 0.0_wp, pad_turn(bearing, [(i, i=1, bearing%pads)]), &
-                                             elements_of_a_curve*pad_angle(bearing)/real(plan%circumferential, wp)))
+          call align_stations(mesh, all_kinks())
         end if
       end if
       if (scene%model%foil == foil_plate) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
     end associate
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
+
+  contains
+
+    !> Kinks of all pads' gaps as if all were where the first one is.
+    function all_kinks() result(kinks)
+      real(wp), allocatable :: kinks(:) !! [rad]
+      integer :: pad
+
+      associate (bearing => scene%bearing)
+        kinks = kinks_of(shape, 0.0_wp, pad_turn(bearing, [(pad, pad=1, bearing%pads)]), &
+                         elements_of_a_curve*pad_angle(bearing)/real(plan%circumferential, wp))
+      end associate
+    end function all_kinks
   end function film_mesh_of
 
   !> The foil model that a scene asks for, under its film.

@@ -173,48 +173,52 @@ contains
     character(len=*), intent(in) :: name !! of the part
     class(gap_shape_type), intent(in) :: shape !! what it takes off
     type(gap_part_type) :: part
-    real(wp), allocatable :: kink(:)
+    real(wp), allocatable :: kink(:), inside(:)
     integer :: element, i
 
     part%name = name
     part%height = [(shape%height(self%angle(i), self%axial(i)), i=1, size(self%angle))]
-    if (.not. shape%on_sides) then
-      part%excess = spread(0.0_wp*self%shape(1, :), 2, size(self%element_nodes, 2))
-      kink = shape%rising_kinks()
-      do element = 1, size(self%element_nodes, 2)
-        associate (nodal => part%height(self%element_nodes(:, element)))
-          part%excess(:, element) = height_at_points(self, shape, kink, element) &
-            - [(dot_product(self%shape(:, i), nodal), i=1, size(self%shape, 2))]
-        end associate
-      end do
-    end if
+    part%excess = spread(0.0_wp*self%shape(1, :), 2, size(self%element_nodes, 2))
+    kink = shape%rising_kinks()
+    do element = 1, size(self%element_nodes, 2)
+      associate (nodal => part%height(self%element_nodes(:, element)))
+        inside = kinks_between(kink, ends_of(self, element))
+        if (shape%on_sides .and. size(inside) == 0) cycle
+        part%excess(:, element) = height_at_points(self, shape, inside, element) &
+          - [(dot_product(self%shape(:, i), nodal), i=1, size(self%shape, 2))]
+      end associate
+    end do
     call self%put(part)
   end subroutine put_shape
 
-  !> Heights of a shape at the Gauss points of an element; of kinks inside it what they are in the
-  !> mean.
-  pure function height_at_points(film, shape, kink, element) result(height)
+  !> Where an element begins and ends along the motion [rad].
+  pure function ends_of(film, element) result(ends)
     type(gas_film_type), intent(in) :: film
-    class(gap_shape_type), intent(in) :: shape
-    real(wp), intent(in) :: kink(:) !! all its kinks, rising [rad]
     integer, intent(in) :: element
-    real(wp) :: height(size(film%shape, 2)) !! [m]
-    real(wp) :: angle(size(film%shape, 1)), along(size(film%shape, 2))
-    real(wp), allocatable :: inside(:)
-    integer :: i
+    real(wp) :: ends(2), angle(size(film%shape, 1))
 
     angle = unwound_angles(film, element)
+    ends = [minval(angle), maxval(angle)]
+  end function ends_of
+
+  !> Heights of a shape at the Gauss points of an element; of kinks inside it what they are in the
+  !> mean.
+  pure function height_at_points(film, shape, inside, element) result(height)
+    type(gas_film_type), intent(in) :: film
+    class(gap_shape_type), intent(in) :: shape
+    real(wp), intent(in) :: inside(:) !! its kinks in the element, rising [rad]
+    integer, intent(in) :: element
+    real(wp), dimension(size(film%shape, 2)) :: height, angle, along !! [m], [rad], [m]
+    integer :: i
+
+    angle = matmul(unwound_angles(film, element), film%shape)
     along = matmul(film%axial(film%element_nodes(:, element)), film%shape)
-    associate (ends => [minval(angle), maxval(angle)], motion => film%point_motion(:, :, element))
-      inside = kinks_between(kink, ends)
-      if (size(inside) > 0) then
-        height = shape%in_element(ends, inside, nint(sqrt(real(size(angle), wp))) - 1, &
-                               matmul(angle, film%shape), along)
-      else
-        ! The first of the motions are cosine and sine of the angle.
-        height = [(shape%height(atan2(motion(2, i), motion(1, i)), along(i)), i=1, size(height))]
-      end if
-    end associate
+    if (size(inside) > 0) then
+      height = shape%in_element(ends_of(film, element), inside, &
+                                nint(sqrt(real(size(angle), wp))) - 1, angle, along)
+    else
+      height = [(shape%height(angle(i), along(i)), i=1, size(height))]
+    end if
   end function height_at_points
 
   !> Angles of an element's nodes; the element that closes a ring reaches beyond the last station.

@@ -3,10 +3,11 @@
 module gfb_aligned_mesh
   use gfb_kinds, only: wp
   use gfb_units, only: turn
-  use gfb_film_mesh, only: film_mesh_type
+  use gfb_film_mesh, only: film_mesh_type, find_interval
   implicit none (type, external)
   private
-  public :: align_stations, kinks_inside, aligned_stations, elements_at_ends, largest_change
+  public :: align_stations, align_graded, kinks_inside, aligned_stations, elements_at_ends, &
+            largest_change
 
   real(wp), parameter :: on_side = 1.0e-8_wp         !! nearer is on a side, over an element [1]
   real(wp), parameter :: rounding = 1.0e-9_wp        !! of lengths that fit exactly, relative [1]
@@ -50,6 +51,36 @@ contains
     end do
     call put_sides(mesh, side)
   end subroutine align_stations
+
+  !> The same on a mesh whose elements differ by intent: in places counted by elements they are
+  !> equal, so that none gets out of proportion to what it was.
+  pure subroutine align_graded(mesh, kink)
+    type(film_mesh_type), intent(inout) :: mesh !! of a pad
+    real(wp), intent(in) :: kink(:) !! angles in [0, 2 pi), rising [rad]
+    type(film_mesh_type) :: even
+    real(wp), dimension(mesh%circumferential()/mesh%order + 1) :: before, side
+    real(wp) :: angle(size(kink)), element, share
+    integer :: i, k, n
+
+    before = sides(mesh)
+    n = size(before)
+    element = (before(n) - before(1))/real(n - 1, wp)
+    angle = before(1) + modulo(kink - before(1), turn)
+    do i = 1, size(kink)
+      if (angle(i) > before(n)) cycle
+      call find_interval(before, angle(i), k, share)
+      angle(i) = before(1) + element*(real(k - 1, wp) + share)
+    end do
+    even = mesh
+    call put_sides(even, [(before(1) + element*real(i, wp), i=0, n - 1)])
+    call align_stations(even, angle)
+    side = (sides(even) - before(1))/element
+    do i = 1, n
+      k = min(max(int(side(i)), 0), n - 2)
+      side(i) = before(k + 1) + (side(i) - real(k, wp))*(before(k + 2) - before(k + 1))
+    end do
+    call put_sides(mesh, side)
+  end subroutine align_graded
 
   !> Equal sides, moved onto kinks.
   pure function sides_on(equal, angle) result(side)

@@ -469,7 +469,8 @@ contains
       right = .false.
     end do
     call keys%real_list_key('profile_height', height, longest_list, 'm', 'height of the bore '// &
-                            'over the circle there, linear between the angles and around', &
+                            'over the circle there, or of a thrust bearing over the plane of '// &
+                            'its pads, linear between the angles and around', &
                             any_value, here, 'required with profile_angle')
     if (keys%key%given .and. .not. here) then
       call keys%complain(bore_group, 'profile_height', 'needs profile_angle')

@@ -164,8 +164,10 @@ contains
 
     associate (profile => scene%bore%profile)
       words = 'bore             up to '//text(profile%peak()*1.0e6_wp, 4)// &
-              ' um over the circle, '//text(profile%peak()/scene%bearing%clearance, 3)// &
-              ' of the clearance'
+              ' um over the '// &
+              trim(merge('pads'' plane', 'circle     ', scene%bearing%is_thrust()))// &
+              ', '//text(profile%peak()/scene%bearing%clearance, 3)//' of the '// &
+              trim(merge('gap''s size', 'clearance ', scene%bearing%is_thrust()))
     end associate
     associate (bearing => scene%bearing)
       call find_shapes(bearing, scene%bore, bearing%leading_edge_angle, 1.0_wp, shape)
