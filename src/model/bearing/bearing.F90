@@ -35,6 +35,14 @@ module gfb_bearing
   !> Share of a step at which no contact changes; far below `huge`, for a step that diverges is longer than a metre [1]
   real(wp), parameter :: never = 1.0e30_wp
 
+  !> A state of a bearing, as its equations ask for it.
+  type, public :: bearing_state_type
+    type(operating_point_type) :: point  !! with the shaft's position
+    real(wp), allocatable :: unknown(:)  !! local, in SI
+    real(wp), allocatable :: gap(:)      !! at this rank's nodes of all films [m]
+    logical :: fixed = .false.           !! the shaft's equations are its place's
+  end type bearing_state_type
+
   !> The bearing at one operating point.
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
     type(operating_point_type) :: point    !! what it is asked to bear now
@@ -184,7 +192,7 @@ contains
         bearing%unknown_scale(pad%first + 1:pad%last) = pad%unknown_scale()
       end associate
     end do
-    if (bearing%heat%present) bearing%unknown_scale(bearing%heat%first(1) + 1:) = heat_scale
+    if (bearing%heat%present) bearing%unknown_scale(bearing%heat%first(1) + 1:bearing%heat%last()) = heat_scale
     bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%clearance/bearing%levers()
   end subroutine scale_unknowns
 
@@ -198,7 +206,7 @@ contains
     do i = 1, size(self%pad)
       scale(self%pad(i)%first + 1:self%pad(i)%last) = self%pad(i)%equation_scale(point)
     end do
-    if (self%heat%present) scale(self%heat%first(1) + 1:self%first_shaft) = heat_sizes(self%heat, self%pad(1)%film)
+    if (self%heat%present) scale(self%heat%first(1) + 1:self%heat%last()) = heat_sizes(self%heat, self%pad(1)%film)
     scale(self%first_shaft + 1:) = self%force_scale(point)*self%levers()
   end function equation_scale
 

@@ -52,7 +52,8 @@ module gfb_bearing_heat
     integer :: walls = 0             !! unknowns
     integer :: shafts = 1, channels = 0 !! unknowns of shaft and channel
   contains
-    procedure :: shaft_wall, channel_wall, sleeve_wall, inlet_wall, mean_wall, grows, softens
+    procedure :: place_of_gas, place_of_foil, place_of_shaft, place_of_channel
+    procedure :: place_of_sleeve, place_of_slit, place_of_mean, last, grows, softens
   end type film_heat_type
 
 contains
@@ -69,39 +70,61 @@ contains
     softens = self%present .and. self%modulus%is_given()
   end function softens
 
-  !> Number of the wall that a row of nodes sees of the shaft.
-  pure integer function shaft_wall(self, row) result(wall)
+  !> Local unknown of the bearing: temperature of the gas at a node of a pad's film.
+  elemental integer function place_of_gas(self, pad, node) result(place)
+    class(film_heat_type), intent(in) :: self !! heat
+    integer, intent(in) :: pad  !! its number
+    integer, intent(in) :: node !! of this rank
+    place = self%first(pad) + 2*node - 1
+  end function place_of_gas
+
+  !> That of the top foil there.
+  elemental integer function place_of_foil(self, pad, node) result(place)
+    class(film_heat_type), intent(in) :: self !! heat
+    integer, intent(in) :: pad  !! its number
+    integer, intent(in) :: node !! of this rank
+    place = self%first(pad) + 2*node
+  end function place_of_foil
+
+  !> That of the shaft as a row of nodes sees it.
+  elemental integer function place_of_shaft(self, row) result(place)
     class(film_heat_type), intent(in) :: self !! heat
     integer, intent(in) :: row !! of the film's mesh
-    wall = merge(row, 1, self%shafts > 1)
-  end function shaft_wall
+    place = self%first_wall + merge(row, 1, self%shafts > 1)
+  end function place_of_shaft
 
   !> The sleeve's.
-  pure integer function sleeve_wall(self) result(wall)
+  elemental integer function place_of_sleeve(self) result(place)
     class(film_heat_type), intent(in) :: self !! heat
-    wall = self%shafts + 1
-  end function sleeve_wall
+    place = self%first_wall + self%shafts + 1
+  end function place_of_sleeve
 
-  !> That of a pad's slit.
-  pure integer function inlet_wall(self, pad) result(wall)
+  !> That of the gas in a pad's slit.
+  elemental integer function place_of_slit(self, pad) result(place)
     class(film_heat_type), intent(in) :: self !! heat
     integer, intent(in) :: pad !! its number
-    wall = self%shafts + 1 + pad
-  end function inlet_wall
+    place = self%first_wall + self%shafts + 1 + pad
+  end function place_of_slit
 
   !> That of the mean temperature of a pad's top foil, where the modulus follows it.
-  pure integer function mean_wall(self, pad) result(wall)
+  elemental integer function place_of_mean(self, pad) result(place)
     class(film_heat_type), intent(in) :: self !! heat
     integer, intent(in) :: pad !! its number
-    wall = self%inlet_wall(size(self%first)) + pad
-  end function mean_wall
+    place = self%place_of_slit(size(self%first)) + pad
+  end function place_of_mean
 
   !> That of the channel at a row of nodes.
-  pure integer function channel_wall(self, row) result(wall)
+  elemental integer function place_of_channel(self, row) result(place)
     class(film_heat_type), intent(in) :: self !! heat
     integer, intent(in) :: row !! of the film's mesh
-    wall = self%walls - self%channels + row
-  end function channel_wall
+    place = self%last() - self%channels + row
+  end function place_of_channel
+
+  !> The last of all temperatures among the local unknowns; those of walls are the last ones.
+  elemental integer function last(self)
+    class(film_heat_type), intent(in) :: self !! heat
+    last = self%first_wall + self%walls
+  end function last
 
   !> Counts the walls' unknowns.
   pure subroutine number_heat(heat, pads, rows)
@@ -118,24 +141,23 @@ contains
   pure function heat_sizes(heat, film) result(scale)
     type(film_heat_type), intent(in) :: heat !! of the bearing
     type(gas_film_type), intent(in) :: film  !! of its first pad
-    real(wp) :: scale(heat%first_wall + heat%walls - heat%first(1))
+    real(wp) :: scale(heat%first(1) + 1:heat%last())
 
-    associate (walls => heat%first_wall - heat%first(1))
+    associate (walls => heat%first_wall)
       associate (through => heat_scale*heat%gas%law%viscosity*heat%gas%specific_heat &
                  /(heat%gas%prandtl*film%clearance), area => heat%arc*film%copies*film%width)
         scale = through*product(film%cell)
-        if (.not. heat%sheet) scale(2:walls:2) = heat_scale
+        if (.not. heat%sheet) scale(heat%place_of_foil(1, 1):walls:2) = heat_scale
         scale(walls + 1:) = through*area
         if (heat%shaft%kind == wall_given) scale(walls + 1) = heat_scale
-        if (heat%sleeve%kind == wall_given) scale(walls + heat%sleeve_wall()) = heat_scale
-        associate (slits => scale(walls + heat%inlet_wall(1):))
-          slits(:size(heat%first)) = through*area/heat%gas%specific_heat
+        if (heat%sleeve%kind == wall_given) scale(heat%place_of_sleeve()) = heat_scale
+        associate (pads => size(heat%first))
+          scale(heat%place_of_slit(1):heat%place_of_slit(pads)) = &
+            through*area/heat%gas%specific_heat
+          if (heat%softens()) then
+            scale(heat%place_of_mean(1):heat%place_of_mean(pads)) = heat_scale*area/real(pads, wp)
+          end if
         end associate
-        if (heat%softens()) then
-          associate (means => scale(walls + heat%mean_wall(1):))
-            means(:size(heat%first)) = heat_scale*area/real(size(heat%first), wp)
-          end associate
-        end if
       end associate
     end associate
   end function heat_sizes
@@ -150,16 +172,15 @@ contains
     real(wp) :: growth(size(mesh_node))
     integer :: node, row
 
-    associate (wall => unknown(heat%first_wall + 1:heat%first_wall + heat%walls))
-      do node = 1, size(growth)
-        row = row_of(mesh_node(node), rows)
-        associate (shaft => wall(heat%shaft_wall(row)), sleeve => wall(heat%sleeve_wall()))
-          growth(node) = heat%centrifugal*point%speed**2 &
-            + point%growth*(heat%shaft%growth*(shaft - heat%reference) &
-                            - heat%sleeve%growth*(sleeve - heat%reference))
-        end associate
-      end do
-    end associate
+    do node = 1, size(growth)
+      row = row_of(mesh_node(node), rows)
+      associate (shaft => unknown(heat%place_of_shaft(row)), &
+                 sleeve => unknown(heat%place_of_sleeve()))
+        growth(node) = heat%centrifugal*point%speed**2 &
+          + point%growth*(heat%shaft%growth*(shaft - heat%reference) &
+                          - heat%sleeve%growth*(sleeve - heat%reference))
+      end associate
+    end do
   end function growth_of
 
   !> Moduli of a pad's top foil and bumps over those that are typed: at its mean temperature, and at
@@ -172,8 +193,8 @@ contains
     real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
     real(wp), intent(out) :: ratio(2), rate(2)
 
-    associate (mean => unknown(heat%first_wall + heat%mean_wall(pad)), &
-               sleeve => unknown(heat%first_wall + heat%sleeve_wall()))
+    associate (mean => unknown(heat%place_of_mean(pad)), &
+               sleeve => unknown(heat%place_of_sleeve()))
       associate (top => heat%modulus%at(mean), bumps => heat%modulus%at(0.5_wp*(mean + sleeve)))
         ratio = 1.0_wp + part*([top(1), bumps(1)] - 1.0_wp)
         rate = part*[top(2), 0.5_wp*bumps(2)]
@@ -192,10 +213,9 @@ contains
     integer :: node
 
     do node = 1, size(mesh_node)
-      associate (first => heat%first(pad) + 2*node, row => row_of(mesh_node(node), rows))
-        temperature(node, :) = [unknown(first - 1:first), &
-                                unknown(heat%first_wall + heat%shaft_wall(row))]
-      end associate
+      temperature(node, :) = [unknown(heat%place_of_gas(pad, node)), &
+                              unknown(heat%place_of_foil(pad, node)), &
+                              unknown(heat%place_of_shaft(row_of(mesh_node(node), rows)))]
     end do
   end function temperatures_at
 

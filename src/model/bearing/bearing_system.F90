@@ -19,8 +19,9 @@ module gfb_bearing_system
   use gfb_contact_memory, only: visit_contacts
   use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_local_exchange, only: create_exchange
-  use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, add_heat_jacobian, walls_of
-  use gfb_bearing, only: bearing_type, number_unknowns, scale_unknowns
+  use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, shaft_places
+  use gfb_film_heat_rates, only: add_heat_jacobian
+  use gfb_bearing, only: bearing_type, bearing_state_type, number_unknowns, scale_unknowns
   use gfb_foil_rows, only: add_of_foil, create_bearing_motions, soften_foils, add_softness
   implicit none (type)
   private
@@ -175,8 +176,7 @@ contains
     end do
     call number_by(bearing, 0, bearing%jacobian)
     if (bearing%heat%present) then
-      call add_heat_jacobian(bearing%heat, bearing%pad, bearing%point, bearing%coordinate, bearing%first_shaft, nothing, &
-                             nothing, nothing, bearing%last_rank, .true., bearing%jacobian)
+      call add_heat_jacobian(bearing, bearing_state_type(bearing%point, nothing, nothing), nothing, .true., bearing%jacobian)
       call add_softness(bearing%blocks, bearing%heat, bearing%pad, 0.0_wp, nothing, .true., bearing%jacobian)
     end if
     if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(shaft_of(bearing, 0), 0.0_wp*hold_stiffness(bearing, bearing%point, .false.), bearing%jacobian)
@@ -230,8 +230,8 @@ contains
       end if
       growth%rate = point%growth*[-heat%shaft%growth, heat%sleeve%growth]
       allocate (growth%number(2, size(pad%film%angle)))
-      growth%number(1, :) = pad%last - pad%first - 1 + walls_of(heat, pad, [(node, node=1, size(growth%number, 2))], .true.)
-      growth%number(2, :) = pad%last - pad%first - 1 + heat%sleeve_wall()
+      growth%number(1, :) = pad%last - pad%first - 1 + shaft_places(heat, pad, [(node, node=1, size(growth%number, 2))]) - heat%first_wall
+      growth%number(2, :) = pad%last - pad%first - 1 + heat%place_of_sleeve() - heat%first_wall
     end associate
   end function growth_of
 
@@ -287,7 +287,7 @@ contains
     if (valid) then
       if (self%heat%present) then
         flow = heat_flows(self, here, unknown, gap, value)
-        call add_heat_flows(self%heat, self%pad, unknown, flow, self%last_rank, value)
+        call add_heat_flows(self, bearing_state_type(here, unknown, gap), flow, value)
       end if
       do i = 1, size(self%pad)
         of_pad = state_of(self, i, here, unknown, gap, self%shaft_fixed)
@@ -317,7 +317,7 @@ contains
     real(wp), intent(inout) :: value(:) !! zero before, in SI
     real(wp), allocatable :: flow(:)
 
-    call add_heat_residual(self%heat, self%pad, here, unknown, gap, value)
+    call add_heat_residual(self, bearing_state_type(here, unknown, gap), value)
     flow = summed(self, value)
   end function heat_flows
 
@@ -330,7 +330,7 @@ contains
 
     heat = 0.0_wp
     area = 0.0_wp
-    call add_shaft_flux(self%heat, self%pad, self%position(unknown), unknown, self%gap(unknown), heat, area)
+    call add_shaft_flux(self, bearing_state_type(self%position(unknown), unknown, self%gap(unknown)), heat, area)
     flux = self%film_pressure(summed(self, heat))/self%film_pressure(summed(self, area))
   end function shaft_flux
 
@@ -366,7 +366,7 @@ contains
 
     PetscCallA(PetscLogEventBegin(bearing%events%film, ierr))
     open = .true.
-    if (bearing%heat%present) open = all(unknown(bearing%heat%first(1) + 1:bearing%first_shaft) > 0.0_wp) ! temperatures, too
+    if (bearing%heat%present) open = all(unknown(bearing%heat%first(1) + 1:bearing%heat%last()) > 0.0_wp) ! temperatures, too
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), h => gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node))
         open = open .and. pad%film%is_open(unknown(pad%first + 1:pad%first + size(h)), h, point)
@@ -436,8 +436,7 @@ contains
     if (self%heat%present) then
       value = 0.0_wp
       flow = heat_flows(self, self%position(unknown, point), unknown, gap, value)
-      call add_heat_jacobian(self%heat, self%pad, self%position(unknown, point), self%coordinate, self%first_shaft, unknown, gap, &
-                             flow, self%last_rank, .false., self%jacobian)
+      call add_heat_jacobian(self, bearing_state_type(self%position(unknown, point), unknown, gap), flow, .false., self%jacobian)
     end if
     call add_softness(self%blocks, self%heat, self%pad, point%growth, unknown, .false., self%jacobian)
     if (self%floats .and. self%last_rank) call add_shaft_stiffness(shaft_of(self, 0), hold_stiffness(self, point, fixed), self%jacobian)

@@ -184,7 +184,7 @@ contains
         call pad%foil%add_modulus_rates(unknown(pad%first + 1:pad%last), rate)
         rate = rate*spread(by, 1, size(rate, 1))
       end if
-      column = int(global(heat%first_wall + [heat%mean_wall(i), heat%sleeve_wall()]), pint)
+      column = int(global([heat%place_of_mean(i), heat%place_of_sleeve()]), pint)
       PetscCallA(MatGetOwnershipRange(matrix, first, last, ierr))
       own = 0
       do k = pad%foil%first + 1, size(rate, 1)

@@ -7,7 +7,7 @@ module gfb_heat_answer
   use gfb_heated_film, only: heated_residual, heated_shear, mean_over_gap, heated_state_type, heated_rows, row_foil, row_shaft, field_gas, &
                              field_foil, field_gap, field_shaft
   use gfb_bearing_heat, only: film_heat_type, growth_of, moduli_at
-  use gfb_film_heat, only: state_of, walls_of, feed, is_leading, is_trailing
+  use gfb_film_heat, only: state_of, channel_places, feed, is_leading, is_trailing
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   implicit none (type)
@@ -63,25 +63,23 @@ contains
 
     do i = 1, size(pads)
       associate (h => gap(pads(i)%first_node + 1:pads(i)%last_node))
-        call read_pad(heat, pads(i), i, point, unknown, h, flow, sum_of(:, i), most(:, i))
+        call read_pad(heat, pads(i), point, unknown, h, flow, sum_of(:, i), most(:, i))
       end associate
     end do
     sum_of = reshape(sum_over_ranks(reshape(sum_of, [size(sum_of)])), shape(sum_of))
     most = reshape(largest_over_ranks(reshape(most, [size(most)])), shape(most))
-    associate (wall => unknown(heat%first_wall + 1:heat%first_wall + heat%walls))
-      answer%present = .true.
-      answer%pad = [(share_of(sum_of(:, i), most(:, i), wall(heat%inlet_wall(i))), i=1, size(pads))]
-      answer%whole = share_of(sum(sum_of, 2), maxval(most, 2), sum(answer%pad%inlet_temperature)/real(size(pads), wp))
-      if (heat%softens()) call read_moduli(heat, point, unknown, answer)
-      answer%top_foil_bends = pads(1)%foil%is_meshed()
-      associate (all => sum(sum_of, 2))
-        answer%shaft_temperature = all(13)/all(3)
-        answer%running_clearance = pads(1)%film%clearance - all(14)/all(3)
-      end associate
-      answer%sleeve_temperature = wall(heat%sleeve_wall())
-      answer%has_cooling = heat%channels > 0
-      if (answer%has_cooling) answer%cooling_outlet_temperature = wall(heat%channel_wall(heat%channels))
+    answer%present = .true.
+    answer%pad = [(share_of(sum_of(:, i), most(:, i), unknown(heat%place_of_slit(i))), i=1, size(pads))]
+    answer%whole = share_of(sum(sum_of, 2), maxval(most, 2), sum(answer%pad%inlet_temperature)/real(size(pads), wp))
+    if (heat%softens()) call read_moduli(heat, point, unknown, answer)
+    answer%top_foil_bends = pads(1)%foil%is_meshed()
+    associate (all => sum(sum_of, 2))
+      answer%shaft_temperature = all(13)/all(3)
+      answer%running_clearance = pads(1)%film%clearance - all(14)/all(3)
     end associate
+    answer%sleeve_temperature = unknown(heat%place_of_sleeve())
+    answer%has_cooling = heat%channels > 0
+    if (answer%has_cooling) answer%cooling_outlet_temperature = unknown(heat%place_of_channel(heat%channels))
     associate (whole => answer%whole)
       answer%imbalance = (whole%power - whole%to_shaft - whole%to_top_foil - whole%by_gas)/max(whole%power, tiny(1.0_wp))
     end associate
@@ -98,11 +96,11 @@ contains
 
     answer%softens = .true.
     answer%whole%modulus = 0.0_wp
-    associate (sleeve => unknown(heat%first_wall + heat%sleeve_wall()))
+    associate (sleeve => unknown(heat%place_of_sleeve()))
       do i = 1, size(answer%pad)
         call moduli_at(heat, i, point%growth, unknown, answer%pad(i)%modulus, rate)
         answer%whole%modulus = answer%whole%modulus + answer%pad(i)%modulus/real(size(answer%pad), wp)
-        associate (foil => unknown(heat%first_wall + heat%mean_wall(i)))
+        associate (foil => unknown(heat%place_of_mean(i)))
           answer%off_table = answer%off_table .or. .not. (heat%modulus%covers(foil) .and. heat%modulus%covers(0.5_wp*(foil + sleeve)))
         end associate
       end do
@@ -110,10 +108,9 @@ contains
   end subroutine read_moduli
 
   !> This rank's sums and largest values of a pad.
-  subroutine read_pad(heat, pad, number, point, unknown, gap, flow, sum_of, most)
+  subroutine read_pad(heat, pad, point, unknown, gap, flow, sum_of, most)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pad
-    integer, intent(in) :: number !! of the pad
     type(operating_point_type), intent(in) :: point
     real(wp), intent(in) :: unknown(:), gap(:), flow(:)
     real(wp), intent(out) :: sum_of(sums) !! see `share_of`; mean of the shaft and of growth, times the area
@@ -127,15 +124,15 @@ contains
     sum_of = 0.0_wp
     most = 0.0_wp
     growth = growth_of(heat, pad%mesh%mesh_node, pad%whole%rows(), point, unknown)
-    associate (film => pad%film, sleeve => unknown(heat%first_wall + heat%sleeve_wall()))
+    associate (film => pad%film, sleeve => unknown(heat%place_of_sleeve()))
       do element = 1, size(film%element_nodes, 2)
         associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
-          state = state_of(heat, pad, number, element, point, unknown, gap)
+          state = state_of(heat, pad, element, point, unknown, gap)
           call heated_residual(geometry, film%flow_at(point), heat%gas, state, share)
           foil = state%field(:n, field_foil)
           mean = mean_over_gap(state%field(:n, field_gas), foil, state%field(:n, field_shaft))
           channel = spread(heat%cooling_temperature, 1, n)
-          if (heat%channels > 0) channel = unknown(heat%first_wall + walls_of(heat, pad, nodes, .false.))
+          if (heat%channels > 0) channel = unknown(channel_places(heat, pad, nodes))
           weight = film%copies*matmul(film%shape, geometry%area)
           associate (gas => film%copies*matmul(film%shape, geometry%area*(matmul(state%field(:n, field_gap), film%shape) + state%excess(:n))))
             sum_of(:3) = sum_of(:3) + [dot_product(gas, mean), sum(gas), sum(weight)]
@@ -153,7 +150,7 @@ contains
         if (.not. (film%fixed(node) .and. pad%mesh%owned(node))) cycle
         associate (inflow => film%copies*heat%gas%density*flow(pad%first + node))
           sum_of(10) = sum_of(10) - heat%gas%specific_heat*inflow* &
-                          merge(feed(heat, pad, number, node, unknown), unknown(heat%first(number) + 2*node - 1), inflow > 0.0_wp)
+                          merge(feed(heat, pad, node, unknown), unknown(heat%place_of_gas(pad%number, node)), inflow > 0.0_wp)
           if (is_leading(pad, node)) then
             sum_of(11) = sum_of(11) + inflow
           else if (is_trailing(pad, node)) then

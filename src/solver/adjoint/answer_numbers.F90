@@ -16,7 +16,7 @@ module gfb_answer_numbers
   use gfb_heated_film, only: heated_state_type, heated_jacobian, heated_shear_rates, mean_over_gap, heated_rows, heated_fields, row_foil, &
                              row_shaft, field_pressure, field_gap, field_gas, field_foil, field_shaft
   use gfb_bearing_heat, only: temperatures_at, moduli_at
-  use gfb_film_heat, only: state_of, walls_of
+  use gfb_film_heat, only: state_of, shaft_places, channel_places
   use gfb_heat_answer, only: heat_answer_type, heat_answer
   use gfb_meshed_foil, only: bump_surface
   use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress, stress_at, add_stress_rates
@@ -336,7 +336,7 @@ contains
     whole = film_sums(bearing, unknown)
     associate (heat => bearing%heat, pad => bearing%pad(number), film => bearing%pad(number)%film)
       do element = 1, size(film%element_nodes, 2)
-        state = state_of(heat, pad, number, element, here, unknown, gap)
+        state = state_of(heat, pad, element, here, unknown, gap)
         call heated_jacobian(film%geometry(element), film%flow_at(here), heat%gas, state, rate, of_excess)
         call heated_shear_rates(film%geometry(element), film%flow_at(here), heat%gas, state, shear, of_shear)
         by = 0.0_wp
@@ -360,15 +360,19 @@ contains
           by(:, field_foil, of_top_foil) = matmul(shape, area)
           by(:, field_shaft, of_shaft) = matmul(shape, area)
         end associate
-        associate (nodes => film%element_nodes(:, element), first => heat%first(number))
+        associate (nodes => film%element_nodes(:, element))
+          associate (gas => heat%place_of_gas(number, nodes), foil => heat%place_of_foil(number, nodes))
+            do k = 1, numbers
+              gradient(pad%first + nodes, k) = gradient(pad%first + nodes, k) + film%copies*by(:, field_pressure, k)
+              gradient(gas, k) = gradient(gas, k) + film%copies*by(:, field_gas, k)
+              gradient(foil, k) = gradient(foil, k) + film%copies*by(:, field_foil, k)
+            end do
+          end associate
           do k = 1, numbers
-            gradient(pad%first + nodes, k) = gradient(pad%first + nodes, k) + film%copies*by(:, field_pressure, k)
-            gradient(first + 2*nodes - 1, k) = gradient(first + 2*nodes - 1, k) + film%copies*by(:, field_gas, k)
-            gradient(first + 2*nodes, k) = gradient(first + 2*nodes, k) + film%copies*by(:, field_foil, k)
             by_gap(nodes, k) = by_gap(nodes, k) + film%copies*by(:, field_gap, k)
           end do
-          call add_shares(heat%first_wall + walls_of(heat, pad, nodes, .true.), film%copies*by(:, field_shaft, :), gradient)
-          if (heat%channels > 0) call add_shares(heat%first_wall + walls_of(heat, pad, nodes, .false.), &
+          call add_shares(shaft_places(heat, pad, nodes), film%copies*by(:, field_shaft, :), gradient)
+          if (heat%channels > 0) call add_shares(channel_places(heat, pad, nodes), &
             reshape([(-merge(film%copies*heat%channel, 0.0_wp, k == to_channel)*by(:, field_foil, of_top_foil), k=1, numbers)], &
                     [n, numbers]), gradient)
           if (bearing%floats) then
@@ -429,7 +433,7 @@ contains
     integer :: i, shaft(1)
 
     area = sum_over_ranks([sum([(film_area(bearing%pad(i)), i=1, size(bearing%pad))])])
-    associate (heat => bearing%heat, growth => bearing%point%growth, sleeve => bearing%heat%first_wall + bearing%heat%sleeve_wall())
+    associate (heat => bearing%heat, growth => bearing%point%growth, sleeve => bearing%heat%place_of_sleeve())
       gradient(:, through_bumps) = heat%bumps*gradient(:, of_top_foil)
       gradient(:, to_channel) = gradient(:, to_channel) + merge(heat%channel, 0.0_wp, heat%channels > 0)*gradient(:, of_top_foil)
       gradient(:, of_top_foil) = gradient(:, of_top_foil)/area(1)
@@ -446,21 +450,21 @@ contains
         gradient(sleeve, through_bumps) = -heat%bumps*area(1)
         gradient(sleeve, left_clearance) = growth*heat%sleeve%growth
         do i = 1, size(bearing%pad)
-          gradient(heat%first_wall + heat%inlet_wall(i), of_inlet) = 1.0_wp/real(size(bearing%pad), wp)
+          gradient(heat%place_of_slit(i), of_inlet) = 1.0_wp/real(size(bearing%pad), wp)
         end do
-        if (heat%channels > 0) gradient(heat%first_wall + heat%channel_wall(heat%channels), of_outlet) = 1.0_wp
+        if (heat%channels > 0) gradient(heat%place_of_channel(heat%channels), of_outlet) = 1.0_wp
       end if
       do i = 1, size(bearing%pad)
         associate (pad => bearing%pad(i))
           associate (film => nodes%node(extremes + 1) - pad%first_node, foil => nodes%node(extremes + 2) - pad%first_node, &
-                     own => pad%last_node - pad%first_node, first => heat%first(i))
+                     own => pad%last_node - pad%first_node)
             if (film > 0 .and. film <= own) then
-              shaft = heat%first_wall + walls_of(heat, pad, [film], .true.)
-              gradient(first + 2*film - 1, of_hottest_film) = 1.0_wp
-              gradient(first + 2*film, of_hottest_film) = 1.0_wp/6.0_wp
+              shaft = shaft_places(heat, pad, [film])
+              gradient(heat%place_of_gas(i, film), of_hottest_film) = 1.0_wp
+              gradient(heat%place_of_foil(i, film), of_hottest_film) = 1.0_wp/6.0_wp
               gradient(shaft(1), of_hottest_film) = -1.0_wp/6.0_wp
             end if
-            if (foil > 0 .and. foil <= own) gradient(first + 2*foil, of_hottest_foil) = 1.0_wp
+            if (foil > 0 .and. foil <= own) gradient(heat%place_of_foil(i, foil), of_hottest_foil) = 1.0_wp
           end associate
         end associate
       end do
@@ -530,8 +534,8 @@ contains
           mine = ratio(k)*mine
           if (.not. heat%softens()) cycle
           call moduli_at(heat, place(k)%pad, bearing%point%growth, unknown, ratio, rate)
-          associate (slope => rate(k)*stress_at(pad%foil, place(k:k), own), mean => heat%first_wall + heat%mean_wall(pad%number), &
-                     sleeve => heat%first_wall + heat%sleeve_wall())
+          associate (slope => rate(k)*stress_at(pad%foil, place(k:k), own), mean => heat%place_of_mean(pad%number), &
+                     sleeve => heat%place_of_sleeve())
             gradient(mean, k) = gradient(mean, k) + slope(1)
             if (k == bump_surface) gradient(sleeve, k) = gradient(sleeve, k) + slope(1)
           end associate
@@ -549,9 +553,9 @@ contains
     integer :: node
 
     associate (heat => bearing%heat, part => bearing%point%growth)
-      call add_shares(heat%first_wall + walls_of(heat, pad, [(node, node=1, size(by_gap, 1))], .true.), &
+      call add_shares(shaft_places(heat, pad, [(node, node=1, size(by_gap, 1))]), &
                       -part*heat%shaft%growth*by_gap, gradient)
-      associate (sleeve => gradient(heat%first_wall + heat%sleeve_wall(), :))
+      associate (sleeve => gradient(heat%place_of_sleeve(), :))
         sleeve = sleeve + part*heat%sleeve%growth*sum(by_gap, 1)
       end associate
     end associate
@@ -571,7 +575,7 @@ contains
     associate (heat => bearing%heat)
       call moduli_at(heat, pad%number, bearing%point%growth, unknown, ratio, rate)
       associate (slope => matmul(-rate(2)/ratio(2)*pad%foil%deflection(unknown(pad%first + 1:pad%last), ratio), by_gap), &
-                 wall => heat%first_wall + [heat%mean_wall(pad%number), heat%sleeve_wall()])
+                 wall => [heat%place_of_mean(pad%number), heat%place_of_sleeve()])
         do k = 1, size(wall)
           gradient(wall(k), :) = gradient(wall(k), :) + slope
         end do

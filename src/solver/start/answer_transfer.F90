@@ -110,21 +110,19 @@ contains
           unknown(heat%first(1) + which:heat%first_wall:2) = film_field(small, small%film_temperature(coarse, which), around, share)
         end do
         across = find_places(small%pad(1)%whole%row_axial, bearing%pad(1)%whole%row_axial, small%pad(1)%whole%half)
-        associate (wall => coarse(from%first_wall + 1:from%first_wall + from%walls), &
-                   here => unknown(heat%first_wall + 1:heat%first_wall + heat%walls))
-          do i = 1, heat%shafts
-            here(i) = line_between(wall(from%shaft_wall(across%low(i))), wall(from%shaft_wall(across%low(i) + 1)), across%share(i))
-          end do
-          here(heat%sleeve_wall()) = wall(from%sleeve_wall())
-          do i = 1, size(bearing%pad)
-            here(heat%inlet_wall(i)) = wall(from%inlet_wall(i))
-            if (heat%softens()) here(heat%mean_wall(i)) = wall(from%mean_wall(i))
-          end do
-          do i = 1, merge(heat%channels, 0, from%channels > 0)
-            here(heat%channel_wall(i)) = line_between(wall(from%channel_wall(across%low(i))), wall(from%channel_wall(across%low(i) + 1)), &
-                                                 across%share(i))
-          end do
-        end associate
+        do i = 1, heat%shafts
+          unknown(heat%place_of_shaft(i)) = line_between(coarse(from%place_of_shaft(across%low(i))), &
+                                                         coarse(from%place_of_shaft(across%low(i) + 1)), across%share(i))
+        end do
+        unknown(heat%place_of_sleeve()) = coarse(from%place_of_sleeve())
+        do i = 1, size(bearing%pad)
+          unknown(heat%place_of_slit(i)) = coarse(from%place_of_slit(i))
+          if (heat%softens()) unknown(heat%place_of_mean(i)) = coarse(from%place_of_mean(i))
+        end do
+        do i = 1, merge(heat%channels, 0, from%channels > 0)
+          unknown(heat%place_of_channel(i)) = line_between(coarse(from%place_of_channel(across%low(i))), &
+                                                           coarse(from%place_of_channel(across%low(i) + 1)), across%share(i))
+        end do
       end if
     end associate
     call bearing%set_unknowns(unknown)
