@@ -254,8 +254,6 @@ contains
       words = 'a search for a limit'
     else if (scene%model%coupling == coupling_partitioned) then
       words = "coupling = 'partitioned' in &model"
-    else if (scene%thermal%present) then
-      words = '&thermal'
     else if (scene%sensitivity%present) then
       words = '&sensitivity'
     else if (scene%solver%stability) then

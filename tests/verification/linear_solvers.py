@@ -12,12 +12,14 @@ from contact_strips import COARSE, SMALL, pressed, squeezed
 from gfb_run import GFB, SECONDS, Bearing, Checks, largest_difference, run, summary_difference
 from gfb_run import solve as gfb_solve
 from pads import of_pads
+from sensitivity import foils, with_keys
 from strips import fields, solve
 from thrust_shell import shells
 
 FACTOR = 1.5  # between estimate and peak, as the log states it
 HELD = {"support": "held", "pressure": 0.2e6, "steps_up": 1}
 FULL = {"reduction": "none"}
+HOT = {"ambient_temperature": 293.15, "sleeve_conductance": 2.0}
 LEFT = "the linear iterations did not converge: factors from here on"
 WRITTEN = ("--check",)  # a case that is not solved yet
 UNIT = {"MB": 1.0e6, "GB": 1.0e9}
@@ -83,16 +85,35 @@ def check_small(checks, folder):
         "tilted journal": lambda name, solver: shell_bearing.solve(
             folder, name, **shell_bearing.held(at, tilt=(1.0e-4, 0.0)), **ring, **solver),
         "three pads": lambda name, solver: gfb_solve(folder, name, of_pads("shell", {"count": 3}, **full, **solver)),
-        "thrust": lambda name, solver: gfb_solve(folder, name, shells({"axial_load": 100.0}, model={"reduction": "none"}, **solver))}
+        "hot thrust": lambda name, solver: gfb_solve(folder, name, shells(
+            {"axial_load": 100.0}, model={"reduction": "none"}, thermal=HOT | {"shaft_conductance": 0.5}, **solver))}
     for kind, make in kinds.items():
         base, other = (make(f"small_{name}", {"solver": {"linear_solver": name}}) for name in ("direct", "iterative"))
-        values, others = base.physical(), other.physical()
-        sizes = {name: abs(values[name]) for name in others} | (shell_bearing.SIZES if kind != "thrust" else {}) | \
-            {name: shell_bearing.BEARING.force_unit for name in others if name.startswith("force_")}
-        checks.below(f"small bearing, {kind}: iterations against factors",
-                     max((abs(others[name] - values[name])/sizes[name] for name in others if values[name] != others[name]),
-                         default=0.0), 1.0e-8)
-        checks.that(f"small bearing, {kind}: iterations sufficed", LEFT not in other.log and "GMRES on two levels" in other.log)
+        compare(checks, f"small bearing, {kind}", base, other, shell_bearing.SIZES if kind != "hot thrust" else {})
+
+
+def check_hot(checks, folder):
+    """A journal with heat, which gas carries along the film, by iterations over the whole width on two ranks."""
+    full = {"reduction": "none"}
+    fin = HOT | {"shaft": "fin", "shaft_end_conductance": (0.1, 0.1), "shaft_expansion": 1.2e-5, "bump_conductance": 190.0,
+                 "modulus_slope": -3.0e-4}
+    hot = with_keys(foils("shell", 0.1), gas={"viscosity": None, "viscosity_law": "sutherland"}, thermal=fin, model=full,
+                    scene={"analysis": "fixed_position"}, operation={"load": None, "eccentricity": (8.0e-6, 2.0e-6)},
+                    mesh={"circumferential_elements": 26, "axial_elements": 2, "flat_elements": 1})
+    base = gfb_solve(folder, "hot", hot)
+    other = gfb_solve(folder, "hot_iterative", with_keys(hot, solver={"linear_solver": "iterative"}, model={"half_width": "no"}), 2)
+    checks.that("hot journal: warmer than the gas around", other["film_temperature"] > 293.15 + 2.0)
+    compare(checks, "hot journal, whole width, 2 ranks", base, other, shell_bearing.SIZES)
+
+
+def compare(checks, words, base, other, given):
+    """Numbers of an answer by iterations, which sufficed, and by factors."""
+    values, others = base.physical(), other.physical()
+    sizes = {name: abs(values[name]) for name in others} | given | \
+        {name: shell_bearing.BEARING.force_unit for name in others if name.startswith("force_")} | {"energy_imbalance": 1.0}
+    checks.below(f"{words}: iterations against factors",
+                 max((abs(others[name] - values[name])/sizes[name] for name in others if values[name] != others[name]), default=0.0), 1.0e-8)
+    checks.that(f"{words}: iterations sufficed", LEFT not in other.log and "GMRES on two levels" in other.log)
 
 
 def run_with(path, folder, *petsc):
@@ -176,6 +197,7 @@ def main():
         check_same(checks, folder)
         check_bearings(checks, folder)
         check_small(checks, folder)
+        check_hot(checks, folder)
         check_growth(checks, folder)
         check_failures(checks, folder)
         check_estimates(checks, folder)

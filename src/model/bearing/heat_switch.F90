@@ -25,12 +25,15 @@ contains
     real(wp) :: before(bearing%local_size())
     real(wp), allocatable :: unknown(:)
     integer :: pads !! their unknowns
+    logical :: iterates
 
     pads = bearing%first_shaft
+    iterates = bearing%has_motions
     call bearing%get_unknowns(before)
     call free_equations(bearing)
     bearing%heat = heat
     call set_up_equations(bearing)
+    if (iterates) call bearing%find_motions() ! temperatures are unknowns of their own
     allocate (unknown(bearing%local_size()), source=heat%ambient)
     unknown(:pads) = before(:pads)
     unknown(bearing%first_shaft + 1:) = before(pads + 1:)
@@ -65,6 +68,7 @@ contains
     end do
     frozen%heat = film_heat_type()
     call set_up_equations(frozen)
+    if (bearing%has_motions) call frozen%find_motions()
     call frozen%set_unknowns([unknown(:bearing%heat%first(1)), unknown(bearing%first_shaft + 1:)])
   end subroutine freeze_heat
 
