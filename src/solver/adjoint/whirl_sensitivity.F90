@@ -30,7 +30,7 @@ module gfb_whirl_sensitivity
   use gfb_newton, only: newton_type
   use gfb_vibration_equations, only: combine
   use gfb_scene_vibration, only: vibration_of
-  use gfb_complex_factors, only: solve_complex, keep_entries
+  use gfb_complex_solver, only: keep_entries
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_sample, forces_of, force_gradient, &
                                   response_failure, destroy_response
   use gfb_foil_weighing, only: give_mass
@@ -136,7 +136,7 @@ contains
         PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
         PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
         PetscCallA(VecScale(other, aimag(rate), ierr))
-        call solve_complex(part%factors, one, other, found)
+        call part%solver%solve(one, other, found)
         all_found = all_found .and. found
         call bearing%get_unknowns(form%motion(:, 1, k), one)
         call bearing%get_unknowns(form%motion(:, 2, k), other)
@@ -144,7 +144,7 @@ contains
         PetscCallA(VecSet(form%adjoint(2, k), 0.0_wp, ierr))
         call bearing%exchange%add(gradient(:, k)*bearing%unknown_scale, form%adjoint(1, k))
         call keep_entries(form%adjoint(1, k), part%kept)
-        call solve_complex(part%factors, form%adjoint(1, k), form%adjoint(2, k), found, transposed=.true.)
+        call part%solver%solve(form%adjoint(1, k), form%adjoint(2, k), found, transposed=.true.)
         all_found = all_found .and. found
       end do
     end associate

@@ -13,7 +13,7 @@ module gfb_amplitude_response
   use gfb_bearing_system, only: bearing_system_type
   use gfb_contacts_in_motion, only: vibrate_contacts
   use gfb_film_rates, only: fill_friction
-  use gfb_dynamic_response, only: dynamic_response_type, factor_part, solve_part
+  use gfb_dynamic_response, only: dynamic_response_type, prepare_part, solve_part
   use gfb_vibration_equations, only: combine
   implicit none (type)
   private
@@ -107,7 +107,7 @@ contains
       call add_friction(bearing, aimag(stiffness), response%equations%imaginary_part, response%equations%steady)
     end associate
     z = 0.0_wp
-    call factor_part(response, 1, found)
+    call prepare_part(response, 1, found)
     if (found) call solve_part(bearing, response, rate, coordinate, response%part(1), z, found)
     vibration%coefficient = z(:, coordinate)
   end subroutine solve_motion

@@ -11,11 +11,11 @@ module gfb_complex_factors
   use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count, largest_over_ranks
   use gfb_matrix_rows, only: copy_row, row_length
-  use gfb_direct_solver, only: larger_workspace
+  use gfb_direct_solver, only: larger_workspace, failure_in_words
+  use gfb_complex_solver, only: complex_solver_type
   implicit none (type)
   private
-  public :: create_complex_factors, factor_complex, solve_complex, log_determinant, destroy_complex_factors, &
-            keep_entries
+  public :: create_complex_factors
 
   character(len=*), parameter :: prefix = '-dynamic_' !! of PETSc's options
   integer(c_int), parameter :: analyse = 1, factor = 2, solve = 3 !! jobs of MUMPS
@@ -28,7 +28,7 @@ module gfb_complex_factors
   real(wp), parameter :: accepted = 1.0e-10_wp !! largest backward error of a solution [1]
 
   !> A matrix, its factors, and where a vector's entries of each rank stand.
-  type, public :: complex_factors_type
+  type, extends(complex_solver_type), public :: complex_factors_type
     private
     type(c_ptr) :: mumps = c_null_ptr
     logical :: analysed = .false.
@@ -40,6 +40,13 @@ module gfb_complex_factors
     integer :: filled = 0           !! entries of this rank
     integer(c_int), pointer :: row(:) => null(), column(:) => null() !! of this rank's entries, from 1, row by row
     complex(c_double_complex), pointer :: value(:) => null()
+  contains
+    procedure :: prepare => factor_complex
+    procedure :: solve => solve_complex
+    procedure, nopass :: failure => factors_failure
+    procedure :: destroy => destroy_complex_factors
+    procedure, nopass :: has_determinant => factors_have_one
+    procedure :: log_determinant => log_of_factors
   end type complex_factors_type
 
   interface
@@ -191,34 +198,34 @@ contains
   end function longest_row
 
   !> Fills the matrix and factors it, with a larger workspace where MUMPS asks for one.
-  subroutine factor_complex(factors, real_part, imaginary_part, status, enlargements)
-    type(complex_factors_type), intent(inout) :: factors !! created before
+  subroutine factor_complex(self, real_part, imaginary_part, status, enlargements)
+    class(complex_factors_type), intent(inout) :: self !! created before
     Mat, intent(in) :: real_part, imaginary_part !! with the pattern that it was created with, scaled
     integer, intent(out) :: status !! MUMPS' INFOG(1), negative where there are no factors
     integer, intent(inout) :: enlargements !! of the workspace, counted on
     integer :: room
 
     status = no_memory
-    if (.not. c_associated(factors%mumps)) return
-    call visit_entries(factors, real_part, imaginary_part)
-    if (.not. factors%analysed) then
-      status = gfb_mumps_run(factors%mumps, analyse, c_null_ptr)
-      factors%analysed = status >= 0
+    if (.not. c_associated(self%mumps)) return
+    call visit_entries(self, real_part, imaginary_part)
+    if (.not. self%analysed) then
+      status = gfb_mumps_run(self%mumps, analyse, c_null_ptr)
+      self%analysed = status >= 0
     end if
-    if (.not. factors%analysed) return
+    if (.not. self%analysed) return
     do
-      status = gfb_mumps_run(factors%mumps, factor, c_null_ptr)
-      room = larger_workspace(status, factors%room)
+      status = gfb_mumps_run(self%mumps, factor, c_null_ptr)
+      room = larger_workspace(status, self%room)
       if (room == 0) return
-      call gfb_mumps_control(factors%mumps, room_control, int(room, c_int))
-      factors%room = room
+      call gfb_mumps_control(self%mumps, room_control, int(room, c_int))
+      self%room = room
       enlargements = enlargements + 1
     end do
   end subroutine factor_complex
 
   !> Solves with the factors there are; improved once where the equations are not met to round-off.
-  subroutine solve_complex(factors, re, im, solved, transposed)
-    type(complex_factors_type), intent(in) :: factors !! made before
+  subroutine solve_complex(self, re, im, solved, transposed)
+    class(complex_factors_type), intent(in) :: self !! made before
     Vec, intent(in) :: re, im !! right side, overwritten by the solution
     logical, intent(out) :: solved !! the solution meets the equations
     logical, intent(in), optional :: transposed !! those of the transposed matrix, not of its conjugate
@@ -230,31 +237,31 @@ contains
 
     turned = .false.
     if (present(transposed)) turned = transposed
-    call gfb_mumps_control(factors%mumps, transposition_control, merge(0_c_int, 1_c_int, turned))
+    call gfb_mumps_control(self%mumps, transposition_control, merge(0_c_int, 1_c_int, turned))
     right = [cmplx(values_of(re), values_of(im), wp)]
     allocate (residual, source=right)
-    allocate (change(sum(factors%entries)), answer(sum(factors%entries)))
+    allocate (change(sum(self%entries)), answer(sum(self%entries)))
     answer = 0.0_wp
     do pass = 1, 2
-      call solve_once(factors, residual, change, solved)
+      call solve_once(self, residual, change, solved)
       if (.not. solved) return
       answer = answer + change
       residual = right
-      call subtract_product(factors, answer, turned, residual)
+      call subtract_product(self, answer, turned, residual)
       size_of = largest_over_ranks([largest_of(residual), largest_of(right), largest_of(answer)])
-      error = size_of(1)/max(tiny(1.0_wp), factors%largest*size_of(3) + size_of(2))
+      error = size_of(1)/max(tiny(1.0_wp), self%largest*size_of(3) + size_of(2))
       if (error <= refined) exit
     end do
     solved = error <= accepted ! not so for NaN
-    associate (before => factors%before(this_rank() + 1))
+    associate (before => self%before(this_rank() + 1))
       call put_values(real(answer(before + 1:before + size(right)), wp), re)
       call put_values(aimag(answer(before + 1:before + size(right))), im)
     end associate
   end subroutine solve_complex
 
   !> Logarithm of the determinant of the matrix that was factored last, up to multiples of 2 pi i.
-  function log_determinant(factors) result(logarithm)
-    type(complex_factors_type), intent(in) :: factors !! made before
+  function log_of_factors(self) result(logarithm)
+    class(complex_factors_type), intent(in) :: self !! made before
     complex(wp) :: logarithm
     real(c_double) :: part(2)
     real(wp) :: both(2)
@@ -263,13 +270,13 @@ contains
 
     both = 0.0_wp
     if (this_rank() == 0) then
-      call gfb_mumps_determinant(factors%mumps, part, exponent)
+      call gfb_mumps_determinant(self%mumps, part, exponent)
       logarithm = log(cmplx(part(1), part(2), wp)) + real(exponent, wp)*log(2.0_wp)
       both = [real(logarithm, wp), aimag(logarithm)]
     end if
     call MPI_Bcast(both, 2, MPI_DOUBLE_PRECISION, 0, PETSC_COMM_WORLD, ierr)
     logarithm = cmplx(both(1), both(2), wp)
-  end function log_determinant
+  end function log_of_factors
 
   !> One solution, whole on every rank.
   subroutine solve_once(factors, right, answer, solved)
@@ -344,23 +351,25 @@ contains
     PetscCallA(GFB_VecRestoreArray(vector, own, ierr))
   end subroutine put_values
 
-  !> Takes out of a vector what is not kept.
-  subroutine keep_entries(vector, kept)
-    Vec, intent(in) :: vector !! on the left or right of the matrix
-    logical, intent(in) :: kept(:) !! one an entry of this rank
-    PetscScalar, pointer :: values(:)
-    PetscErrorCode :: ierr
+  !> Why nothing was solved.
+  function factors_failure(status) result(words)
+    integer, intent(in) :: status !! MUMPS' INFOG(1), not negative where there are factors
+    character(len=:), allocatable :: words
 
-    PetscCallA(GFB_VecGetArray(vector, values, ierr))
-    where (.not. kept) values = 0.0_wp
-    PetscCallA(GFB_VecRestoreArray(vector, values, ierr))
-  end subroutine keep_entries
+    words = 'the solution does not meet the equations, whose matrix is next to singular'
+    if (status < 0) words = failure_in_words(status)
+  end function factors_failure
+
+  !> Factors tell the determinant.
+  pure logical function factors_have_one() result(has)
+    has = .true.
+  end function factors_have_one
 
   !> Frees what MUMPS holds.
-  subroutine destroy_complex_factors(factors)
-    type(complex_factors_type), intent(inout) :: factors !! created before
+  subroutine destroy_complex_factors(self)
+    class(complex_factors_type), intent(inout) :: self !! created before
 
-    if (c_associated(factors%mumps)) call gfb_mumps_destroy(factors%mumps)
-    deallocate (factors%row, factors%column, factors%value)
+    if (c_associated(self%mumps)) call gfb_mumps_destroy(self%mumps)
+    deallocate (self%row, self%column, self%value)
   end subroutine destroy_complex_factors
 end module gfb_complex_factors

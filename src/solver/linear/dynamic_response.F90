@@ -33,13 +33,12 @@ module gfb_dynamic_response
   use gfb_film_rates, only: squeeze, squeeze_by_gap, flow_by_gap, fill_film, fill_springs, squeeze_column
   use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, combine_rate, dissipates, &
                                      destroy_equations
-  use gfb_direct_solver, only: failure_in_words
-  use gfb_complex_factors, only: complex_factors_type, create_complex_factors, factor_complex, solve_complex, &
-                                 destroy_complex_factors, keep_entries
+  use gfb_complex_solver, only: complex_solver_type, keep_entries
+  use gfb_complex_factors, only: complex_factors_type, create_complex_factors
   implicit none (type)
   private
   public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, take_over_counts, response_failure, &
-            factor_part, solve_part, forces_of, force_gradient, destroy_response
+            prepare_part, solve_part, forces_of, force_gradient, destroy_response
 
   !> Of a journal's motions.
   integer, parameter :: translations(2) = [1, 2], tilts(2) = [3, 4]
@@ -49,14 +48,14 @@ module gfb_dynamic_response
     integer, allocatable :: coordinate(:) !! of the response's motions, those that have it
     real(wp), allocatable :: weight(:, :) !! (coordinates, film nodes) B_j dA, this rank's [m2], [m3]
     logical, allocatable :: kept(:)       !! owned unknowns that such a motion has
-    type(complex_factors_type) :: factors
+    class(complex_solver_type), allocatable :: solver
   end type part_type
 
   !> The linearised bearing.
   type, public :: dynamic_response_type
     integer :: factorizations = 0 !! so far
     integer :: enlargements = 0   !! of the factors' workspace
-    integer :: status = 0         !! of the last factors: MUMPS' INFOG(1), negative where there are none
+    integer :: status = 0         !! of the last solver that was prepared, negative where it cannot solve
     integer, allocatable :: motion(:) !! of the shaft's coordinates, those that move the film
     type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
@@ -316,8 +315,21 @@ contains
     part%kept = values > 0.5_wp
     PetscCallA(GFB_VecRestoreArrayRead(flags, values, ierr))
     PetscCallA(VecDestroy(flags, ierr))
-    call create_complex_factors(steady, part%kept, coupled_columns(bearing), part%factors)
+    call create_solver(steady, part%kept, coupled_columns(bearing), part%solver)
   end subroutine create_part
+
+  !> What solves a part's equations.
+  subroutine create_solver(steady, kept, columns, solver)
+    Mat, intent(in) :: steady !! whose pattern it takes
+    logical, intent(in) :: kept(:) !! owned unknowns
+    integer, intent(in) :: columns !! that rows may hold, from the first
+    class(complex_solver_type), allocatable, intent(out) :: solver !! without a matrix yet
+    type(complex_factors_type), allocatable :: factors
+
+    allocate (factors)
+    call create_complex_factors(steady, kept, columns, factors)
+    call move_alloc(factors, solver)
+  end subroutine create_solver
 
   !> Columns, from the first, that rows may hold: not those of the shaft, which is moved from outside.
   pure integer function coupled_columns(bearing) result(columns)
@@ -357,7 +369,7 @@ contains
     call combine(response%equations, rate)
     do i = 1, size(response%part)
       if (response%part(i)%coordinate(1) > wanted) cycle
-      call factor_part(response, i, found)
+      call prepare_part(response, i, found)
       if (found) call solve_part(bearing, response, rate, wanted, response%part(i), coefficient, found)
       if (.not. found) return
     end do
@@ -402,7 +414,7 @@ contains
     z = 0.0_wp
     dz = 0.0_wp
     call combine(response%equations, rate)
-    call factor_part(response, number, found)
+    call prepare_part(response, number, found)
     if (.not. found) return
     call combine_rate(response%equations, rate, without_mass)
     associate (part => response%part(number))
@@ -442,25 +454,24 @@ contains
     type(dynamic_response_type), intent(in) :: response !! that was asked
     character(len=:), allocatable :: words
 
-    words = 'the solution does not meet the equations, whose matrix is next to singular'
-    if (response%status < 0) words = failure_in_words(response%status)
+    words = response%part(1)%solver%failure(response%status)
   end function response_failure
 
-  !> Factors the matrix that was combined last, for the motions of a part.
-  subroutine factor_part(response, number, made)
+  !> Gives the solver of a part the matrix that was combined last.
+  subroutine prepare_part(response, number, made)
     type(dynamic_response_type), intent(inout) :: response !! its factorizations are counted
     integer, intent(in) :: number !! of its part
-    logical, intent(out) :: made  !! else there are no factors
+    logical, intent(out) :: made  !! else nothing can be solved
 
     response%factorizations = response%factorizations + 1
     associate (equations => response%equations)
-      call factor_complex(response%part(number)%factors, equations%real_part, equations%imaginary_part, &
-                          response%status, response%enlargements)
+      call response%part(number)%solver%prepare(equations%real_part, equations%imaginary_part, response%status, &
+                                                response%enlargements)
     end associate
     made = response%status >= 0
-  end subroutine factor_part
+  end subroutine prepare_part
 
-  !> Forces of a part's motions, with the factors there are.
+  !> Forces of a part's motions, of the matrix that its solver has.
   subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found, slope)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(in) :: response !! of it; `one` and `other` keep minus the last motion's change
@@ -482,7 +493,7 @@ contains
         PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
         PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
         PetscCallA(VecScale(other, aimag(rate), ierr))
-        call solve_complex(part%factors, one, other, solved)
+        call part%solver%solve(one, other, solved)
         if (.not. solved) found = .false.
         ! The answer is minus the change, as the force is.
         coefficient(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, 1.0_wp, one), &
@@ -517,7 +528,7 @@ contains
       PetscCallA(VecScale(rise(2), -1.0_wp, ierr))
       call keep_entries(rise(1), part%kept)
       call keep_entries(rise(2), part%kept)
-      call solve_complex(part%factors, rise(1), rise(2), solved)
+      call part%solver%solve(rise(1), rise(2), solved)
     end associate
   end subroutine solve_rise
 
@@ -598,7 +609,7 @@ contains
       deallocate (response%opposite, response%opposite_bearing)
     end if
     do i = 1, size(response%part)
-      call destroy_complex_factors(response%part(i)%factors)
+      call response%part(i)%solver%destroy()
     end do
     do i = 1, size(response%motion)
       PetscCallA(VecDestroy(response%steady_column(i), ierr))

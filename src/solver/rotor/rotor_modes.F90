@@ -45,7 +45,6 @@ module gfb_rotor_modes
   use gfb_units, only: pi
   use gfb_film_surface, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_complex_factors, only: log_determinant
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure
   use gfb_rotor, only: rotor_type, cylindrical, dynamic_matrix, determinant, kinds_of, whirl_sense
   use gfb_mode_owner, only: of_rotor, owner_of, is_of_shaft, find_branches, least_share
@@ -232,10 +231,10 @@ contains
     of_rotor = safe_log(determinant(dynamic_matrix(rotor, kind, coefficient, rate, bearing%point%speed)))
     logarithm = of_rotor
     do i = 1, merge(1, size(response%part), kind == cylindrical)
-      logarithm = logarithm + log_determinant(response%part(i)%factors)
+      logarithm = logarithm + response%part(i)%solver%log_determinant()
     end do
     if (kind /= cylindrical .and. allocated(response%opposite)) then
-      logarithm = logarithm + log_determinant(response%opposite%part(1)%factors)
+      logarithm = logarithm + response%opposite%part(1)%solver%log_determinant()
     end if
     if (present(of_film)) of_film = logarithm - of_rotor
   end subroutine find_determinant

@@ -34,7 +34,7 @@ module gfb_rotor_pencil
   use gfb_mode_owner, only: participation
   use gfb_film_measures, only: square_integrals
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_complex_factors, only: complex_factors_type, solve_complex, keep_entries
+  use gfb_complex_solver, only: complex_solver_type, keep_entries
   use gfb_petsc_kinds, only: pint
   use gfb_film_surface, only: journal_motions
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, find_sample, take_over_counts, forces_of
@@ -55,7 +55,7 @@ module gfb_rotor_pencil
     type(bearing_system_type), pointer :: bearing => null()
     type(dynamic_response_type), pointer :: response => null() !! of it
     integer :: part = 1 !! of the response
-    type(complex_factors_type), pointer :: factors => null() !! of J + sigma E
+    class(complex_solver_type), pointer :: solver => null() !! with J + sigma E
     logical, pointer :: kept(:) => null() !! owned unknowns that its motions have
     integer :: first = 0, entries = 0   !! entries of a vector on this rank before it; those of u
     logical :: has_mass = .false.       !! rates of u over the shift stand behind it
@@ -163,7 +163,7 @@ contains
     PetscCallA(VecDuplicate(right, imaginary_part, ierr))
     PetscCallA(VecSet(imaginary_part, 0.0_wp, ierr))
     PetscCallA(VecCopy(right, answer, ierr))
-    call solve_complex(share%factors, answer, imaginary_part, solved)
+    call share%solver%solve(answer, imaginary_part, solved)
     PetscCallA(VecDestroy(imaginary_part, ierr))
   end subroutine solve_film
 
@@ -429,7 +429,7 @@ contains
     share%bearing => bearing
     share%response => response
     share%part = number
-    share%factors => response%part(number)%factors
+    share%solver => response%part(number)%solver
     share%kept => response%part(number)%kept
     share%one = response%one
     share%other = response%other
