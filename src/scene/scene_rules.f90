@@ -246,8 +246,6 @@ contains
     words = ''
     if (scene%model%foil /= foil_shell) then
       words = 'a foil that is not of shells'
-    else if (scene%dynamics%present) then
-      words = '&dynamics'
     else if (scene%transient%present .or. scene%periodic%present) then
       words = 'a motion over time'
     else if (scene%capacity%question /= 0) then

@@ -13,6 +13,7 @@ from gfb_run import GFB, SECONDS, Bearing, Checks, largest_difference, run, summ
 from gfb_run import solve as gfb_solve
 from pads import of_pads
 from sensitivity import foils, with_keys
+from small_motions import case as vibrating
 from strips import fields, solve
 from thrust_shell import shells
 
@@ -104,6 +105,29 @@ def check_hot(checks, folder):
     other = gfb_solve(folder, "hot_iterative", with_keys(hot, solver={"linear_solver": "iterative"}, model={"half_width": "no"}), 2)
     checks.that("hot journal: warmer than the gas around", other["film_temperature"] > 293.15 + 2.0)
     compare(checks, "hot journal, whole width, 2 ranks", base, other, shell_bearing.SIZES)
+
+
+def check_vibrations(checks, folder):
+    """Stiffness, damping, critical mass and a rotor's growth, foils with their mass, by iterations and by factors."""
+    groups = vibrating("shell", "linear_dynamics", {"eccentricity": (1.1e-5, 5.0e-6)},
+                       dynamics={"frequency_ratios": 1.5, "foil_mass": "auto"}, rotor={"mass": 0.0844})
+    groups = with_keys(groups, bearing={"radius": 3.0e-3, "length": 6.0e-3}, bump_foil={"bumps": 4}, model={"reduction": "none"},
+                       mesh={"circumferential_elements": 16, "axial_elements": 2, "flat_elements": 1})
+    base = gfb_solve(folder, "vibrating", groups)
+    iterated = with_keys(groups, solver={"linear_solver": "iterative"})
+    whole = with_keys(iterated, model={"half_width": "no"})
+    del whole["rotor"]
+    half = gfb_solve(folder, "iterated", iterated)
+    checks.that("vibrations: modes that are not counted are called so", "modes are not counted" in half.log)
+    for words, other in (("half the width, a rotor", half), ("whole width, 2 ranks", gfb_solve(folder, "whole", whole, 2))):
+        for name in base.physical():
+            if name.startswith(("stiffness_", "damping_x", "damping_y")):
+                size = abs(base[f"{name[:-2]}xx"])
+            elif name in ("critical_mass", "whirl_ratio", "growth_rate", "whirl_frequency") and name in other.physical():
+                size = abs(base[name])
+            else:
+                continue
+            checks.below(f"vibrations, {words}: {name}", (other[name] - base[name])/size, 1.0e-8)
 
 
 def compare(checks, words, base, other, given):
@@ -198,6 +222,7 @@ def main():
         check_bearings(checks, folder)
         check_small(checks, folder)
         check_hot(checks, folder)
+        check_vibrations(checks, folder)
         check_growth(checks, folder)
         check_failures(checks, folder)
         check_estimates(checks, folder)

@@ -12,7 +12,7 @@ module gfb_complex_factors
   use gfb_petsc_session, only: this_rank, rank_count, largest_over_ranks
   use gfb_matrix_rows, only: copy_row, row_length
   use gfb_direct_solver, only: larger_workspace, failure_in_words
-  use gfb_complex_solver, only: complex_solver_type
+  use gfb_complex_solver, only: complex_solver_type, longest_row, refined, accepted
   implicit none (type)
   private
   public :: create_complex_factors
@@ -24,8 +24,6 @@ module gfb_complex_factors
   integer, parameter :: no_memory = -13 !! as MUMPS says it
   integer, parameter :: controls = 60 !! of MUMPS, that options may set
   integer, parameter :: first_room = 60 !! [%]
-  real(wp), parameter :: refined = 1.0e-13_wp  !! backward error that is not improved any more [1]
-  real(wp), parameter :: accepted = 1.0e-10_wp !! largest backward error of a solution [1]
 
   !> A matrix, its factors, and where a vector's entries of each rank stand.
   type, extends(complex_solver_type), public :: complex_factors_type
@@ -183,19 +181,6 @@ contains
       factors%value(factors%filled) = value
     end subroutine put_entry
   end subroutine visit_entries
-
-  !> Entries of the longest row of this rank.
-  function longest_row(matrix) result(entries)
-    Mat, intent(in) :: matrix
-    PetscInt :: entries, first, last, row
-    PetscErrorCode :: ierr
-
-    entries = 0
-    PetscCallA(MatGetOwnershipRange(matrix, first, last, ierr))
-    do row = first, last - 1
-      entries = max(entries, row_length(matrix, row))
-    end do
-  end function longest_row
 
   !> Fills the matrix and factors it, with a larger workspace where MUMPS asks for one.
   subroutine factor_complex(self, real_part, imaginary_part, status, enlargements)

@@ -4,9 +4,13 @@
 module gfb_complex_solver
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_matrix_rows, only: row_length
   implicit none (type)
   private
-  public :: keep_entries
+  public :: keep_entries, longest_row
+
+  real(wp), parameter, public :: refined = 1.0e-13_wp  !! backward error of a solution that is not improved any more [1]
+  real(wp), parameter, public :: accepted = 1.0e-10_wp !! largest backward error of a solution [1]
 
   !> A matrix A + i B whose real and imaginary part are PETSc's, and what solves with it. An unknown that is not kept has an
   !> equation of its own, that it is zero.
@@ -66,6 +70,19 @@ contains
     logarithm = 0.0_wp
     if (.not. self%has_determinant()) error stop 'a determinant is asked of a solver that has none'
   end function logarithm_of_nothing
+
+  !> Entries of the longest row of this rank.
+  function longest_row(matrix) result(entries)
+    Mat, intent(in) :: matrix !! of all ranks
+    PetscInt :: entries, first, last, row
+    PetscErrorCode :: ierr
+
+    entries = 0
+    PetscCallA(MatGetOwnershipRange(matrix, first, last, ierr))
+    do row = first, last - 1
+      entries = max(entries, row_length(matrix, row))
+    end do
+  end function longest_row
 
   !> Takes out of a vector what is not kept.
   subroutine keep_entries(vector, kept)

@@ -35,6 +35,7 @@ module gfb_dynamic_response
                                      destroy_equations
   use gfb_complex_solver, only: complex_solver_type, keep_entries
   use gfb_complex_factors, only: complex_factors_type, create_complex_factors
+  use gfb_complex_iterations, only: complex_iterations_type, create_complex_iterations
   implicit none (type)
   private
   public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, take_over_counts, response_failure, &
@@ -315,20 +316,27 @@ contains
     part%kept = values > 0.5_wp
     PetscCallA(GFB_VecRestoreArrayRead(flags, values, ierr))
     PetscCallA(VecDestroy(flags, ierr))
-    call create_solver(steady, part%kept, coupled_columns(bearing), part%solver)
+    call create_solver(bearing, steady, part%kept, part%solver)
   end subroutine create_part
 
-  !> What solves a part's equations.
-  subroutine create_solver(steady, kept, columns, solver)
+  !> What solves a part's equations: iterations where those of the answer are solved so, else factors.
+  subroutine create_solver(bearing, steady, kept, solver)
+    type(bearing_system_type), intent(in) :: bearing
     Mat, intent(in) :: steady !! whose pattern it takes
     logical, intent(in) :: kept(:) !! owned unknowns
-    integer, intent(in) :: columns !! that rows may hold, from the first
     class(complex_solver_type), allocatable, intent(out) :: solver !! without a matrix yet
     type(complex_factors_type), allocatable :: factors
+    type(complex_iterations_type), allocatable :: iterations
 
-    allocate (factors)
-    call create_complex_factors(steady, kept, columns, factors)
-    call move_alloc(factors, solver)
+    if (bearing%has_motions) then
+      allocate (iterations)
+      call create_complex_iterations(bearing%motions, kept, coupled_columns(bearing), iterations)
+      call move_alloc(iterations, solver)
+    else
+      allocate (factors)
+      call create_complex_factors(steady, kept, coupled_columns(bearing), factors)
+      call move_alloc(factors, solver)
+    end if
   end subroutine create_solver
 
   !> Columns, from the first, that rows may hold: not those of the shaft, which is moved from outside.

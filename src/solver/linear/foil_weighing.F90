@@ -18,6 +18,7 @@ module gfb_foil_weighing
   use gfb_film_rates, only: fill_from_foil
   use gfb_inner_motion, only: inner_modes_type
   use gfb_vibration_equations, only: foil_inertia_type
+  use gfb_linear_solver, only: use_multigrid
   use gfb_dynamic_response, only: dynamic_response_type, linearise_steady
   implicit none (type)
   private
@@ -25,6 +26,7 @@ module gfb_foil_weighing
 
   real(wp), parameter :: safe_ratio = 1.0_wp/3.0_wp !! of a frequency to the foil's, where its mass is little [1]
   real(wp), parameter :: tolerance = 1.0e-8_wp !! of the foil's lowest eigenvalue [1]
+  real(wp), parameter :: solved = 1.0e-10_wp !! residual of iterations for it, over the right side [1]
   character(len=*), parameter :: prefix = 'foil_modes_' !! of PETSc's options
 
 contains
@@ -219,8 +221,13 @@ contains
     PetscErrorCode :: ierr
 
     call own_numbers(bearing, own)
-    PetscCallA(MatCreateSubMatrix(steady, own, own, MAT_INITIAL_MATRIX, stiffness, ierr))
-    PetscCallA(MatCreateSubMatrix(inertia%mass, own, own, MAT_INITIAL_MATRIX, mass, ierr))
+    if (bearing%has_motions) then
+      call leave_foils(steady, own, stiffness)
+      PetscCallA(MatDuplicate(inertia%mass, MAT_COPY_VALUES, mass, ierr))
+    else
+      PetscCallA(MatCreateSubMatrix(steady, own, own, MAT_INITIAL_MATRIX, stiffness, ierr))
+      PetscCallA(MatCreateSubMatrix(inertia%mass, own, own, MAT_INITIAL_MATRIX, mass, ierr))
+    end if
     PetscCallA(EPSCreate(PETSC_COMM_WORLD, solver, ierr))
     PetscCallA(EPSSetOptionsPrefix(solver, prefix, ierr))
     PetscCallA(EPSSetOperators(solver, stiffness, mass, ierr))
@@ -231,10 +238,16 @@ contains
     PetscCallA(EPSGetST(solver, transformation, ierr))
     PetscCallA(STSetType(transformation, STSINVERT, ierr))
     PetscCallA(STGetKSP(transformation, linear, ierr))
-    PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
-    PetscCallA(KSPGetPC(linear, factors, ierr))
-    PetscCallA(PCSetType(factors, PCLU, ierr))
-    PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    if (bearing%has_motions) then
+      call use_multigrid(linear, prefix//'st_', .false., bearing%motions)
+      PetscCallA(KSPSetTolerances(linear, solved, 0.0_wp, PETSC_DEFAULT_REAL, PETSC_DEFAULT_INTEGER, ierr))
+      PetscCallA(KSPSetErrorIfNotConverged(linear, PETSC_FALSE, ierr))
+    else
+      PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
+      PetscCallA(KSPGetPC(linear, factors, ierr))
+      PetscCallA(PCSetType(factors, PCLU, ierr))
+      PetscCallA(PCFactorSetMatSolverType(factors, MATSOLVERMUMPS, ierr))
+    end if
     PetscCallA(EPSSetFromOptions(solver, ierr))
     PetscCallA(EPSSolve(solver, ierr))
     PetscCallA(EPSGetConverged(solver, found, ierr))
@@ -248,6 +261,22 @@ contains
     PetscCallA(MatDestroy(mass, ierr))
     PetscCallA(ISDestroy(own, ierr))
   end subroutine find_lowest
+
+  !> The matrix of the foils in the numbers of the bearing, all other unknowns by themselves: iterations have their coarse space in these.
+  subroutine leave_foils(steady, own, stiffness)
+    Mat, intent(in) :: steady
+    IS, intent(in) :: own !! this rank's unknowns of the foils
+    Mat, intent(out) :: stiffness
+    IS :: others
+    PetscInt :: first, last
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatDuplicate(steady, MAT_COPY_VALUES, stiffness, ierr))
+    PetscCallA(MatGetOwnershipRange(steady, first, last, ierr))
+    PetscCallA(ISComplement(own, first, last, others, ierr))
+    PetscCallA(MatZeroRowsColumnsIS(stiffness, others, 1.0_wp, PETSC_NULL_VEC, PETSC_NULL_VEC, ierr))
+    PetscCallA(ISDestroy(others, ierr))
+  end subroutine leave_foils
 
   !> Numbers, from 0, of this rank's unknowns of the foils among those of the bearing.
   subroutine own_numbers(bearing, own)

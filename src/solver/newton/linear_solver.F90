@@ -25,7 +25,7 @@ module gfb_linear_solver
   use gfb_nonlinear_system, only: nonlinear_system_type
   implicit none (type)
   private
-  public :: choose_solver, begin_solve, judge_start, decide_factors, keep_ready, judge_linear, choose_factors, ask_for_factors, &
+  public :: use_multigrid, choose_solver, begin_solve, judge_start, decide_factors, keep_ready, judge_linear, choose_factors, ask_for_factors, &
             linear_failure, drop_failed_factors, forget_solver
 
   integer, parameter :: longest_krylov = 60           !! GMRES iterations of a solve at most

@@ -107,6 +107,7 @@ module gfb_rotor_modes
   type, public :: rotor_answer_type
     logical :: defined = .true.  !! growth rates exist: no loss factor
     logical :: found = .false.   !! all modes in the circle, and the one that decides is sure
+    logical :: counted = .true.  !! else there was no determinant, and one may be missing
     character(len=:), allocatable :: reason !! why not
     integer :: decides = 0       !! number of the least damped mode of the rotor; 0: there is none
     logical :: foil_grows = .false. !! a mode in which the rotor has no share grows
@@ -213,7 +214,8 @@ contains
     change = modulo(change + pi, 2.0_wp*pi) - pi
   end function step
 
-  !> Logarithm of the determinant at a rate, up to multiples of 2 pi i.
+  !> Logarithm of the determinant at a rate, up to multiples of 2 pi i; where the solver of film and foil has none, of the rotor's own,
+  !> which has the same zeros, and a pole at each mode of film and foil.
   subroutine find_determinant(bearing, response, rotor, kind, rate, logarithm, found, of_film)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
@@ -230,6 +232,8 @@ contains
     if (.not. found) return
     of_rotor = safe_log(determinant(dynamic_matrix(rotor, kind, coefficient, rate, bearing%point%speed)))
     logarithm = of_rotor
+    if (present(of_film)) of_film = 0.0_wp
+    if (.not. response%part(1)%solver%has_determinant()) return
     do i = 1, merge(1, size(response%part), kind == cylindrical)
       logarithm = logarithm + response%part(i)%solver%log_determinant()
     end do
@@ -371,6 +375,7 @@ contains
     allocate (answer%mode(0))
     answer%defined = .not. response%equations%vibration%loss_factor > 0.0_wp
     if (.not. answer%defined) return
+    answer%counted = response%part(1)%solver%has_determinant()
     whole = response%equations%vibration
     grows = .not. has_pencil(response%equations)
     if (grows) call put_dampers(whole, 0.0_wp, response%equations%vibration)
@@ -490,18 +495,22 @@ contains
     complex(wp), allocatable :: known(:)
     real(wp) :: centre, reach
     integer :: relaxing, i
+    logical :: counts
 
     known = modes%rate ! in a structure constructor GNU Fortran 12 takes wrong strides
     centre = shift*bearing%point%speed
     reach = circle_between(modes, centre, radius)
-    if (relaxation%present) then
+    counts = response%part(1)%solver%has_determinant()
+    missing = 0
+    found = .true.
+    if (relaxation%present .and. counts) then
       count = mode_count_type(relaxation%rate, circle_between(modes, relaxation%rate, [1.0_wp, room]*relaxation%radius), known)
       call count_relaxing(bearing, response, rotor, kind, centre - relaxation%rate < reach, count, relaxing, found)
       if (.not. found) return
       known = [known, (cmplx(relaxation%rate, 0.0_wp, wp), i=1, relaxing)]
     end if
     count = mode_count_type(centre, reach, known)
-    call count_missing(bearing, response, rotor, kind, count, missing, found)
+    if (counts) call count_missing(bearing, response, rotor, kind, count, missing, found)
   end subroutine count_beside
 
   !> Counts the modes in a disc that are not known. The mean of the logarithm's real part along a circle grows with the logarithm

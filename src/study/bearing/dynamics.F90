@@ -497,6 +497,7 @@ contains
           if (listed(i)) call log%line(mode_words(speed, answer%mode(i)))
         end do
         call log%line(text(count(.not. listed))//' more die out in less than a turn of their own')
+        if (.not. answer%counted) call log%line('modes are not counted, as by factors: iterations have no determinant')
       end if
       if (answer%decides > 0) call log%judged('rotor: '//state_words(speed, answer%mode(answer%decides)), &
                                               real(answer%mode(answer%decides)%rate, wp) <= 0.0_wp)
