@@ -2,7 +2,7 @@
 !> whose unit and meaning come from it.
 module gfb_result_names
   use gfb_result_table, only: result_type, result_rows, heats, study_words, own_unit, own_square, &
-                              name_length
+                              name_length, sweep
   use gfb_text, only: join, plain_text
   use gfb_kinds, only: wp
   use gfb_quantity, only: quantity_type, add_quantity, quantity_number, quantity_count, &
@@ -324,6 +324,15 @@ contains
     names = names_of(index(result_rows%name, any_quantity) == 0)
   end function row_names
 
+  !> The unit of a row as the table shows it; of a truth in a summary the words that stand there.
+  elemental function shown_unit(row) result(unit)
+    type(result_type), intent(in) :: row
+    character(len=len(row%unit)) :: unit
+
+    unit = row%unit
+    if (row%kind == quantity_truth .and. row%studies /= sweep) unit = 'true/false'
+  end function shown_unit
+
   !> Rows as one line of the table.
   pure function line_of(rows) result(words)
     type(result_type), intent(in) :: rows(:)
@@ -335,10 +344,10 @@ contains
       if (i > 1) words = words//', '
       words = words//'`'//shown_names(rows(i))//'`'
     end do
-    words = words//' | '//trim(rows(1)%unit)
-    if (any(rows%unit /= rows(1)%unit)) then
+    words = words//' | '//trim(shown_unit(rows(1)))
+    if (any(shown_unit(rows) /= shown_unit(rows(1)))) then
       do i = 2, size(rows)
-        words = words//', '//trim(rows(i)%unit)
+        words = words//', '//trim(shown_unit(rows(i)))
       end do
     end if
     words = words//' | '//studies_text(rows(1)%studies)//' | '
