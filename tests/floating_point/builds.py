@@ -7,7 +7,8 @@ import tempfile
 import time
 
 from scenes import TOLERANCE  # first: it says where the following are
-from gfb.run import case_text, run_file
+from gfb.case import Case
+from gfb.running import run_file
 from same_answer import difference
 
 SECONDS = 900
@@ -68,7 +69,7 @@ def run_way(gfb, path, folder, scene, way):
 
 def compare_scene(scene, builds):
     """Runs a scene all ways; builds: {name: program}."""
-    row, text = Row(scene), case_text(scene.case)
+    row, text = Row(scene), str(Case(scene.case))
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as name:
         base = None

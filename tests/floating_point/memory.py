@@ -7,7 +7,8 @@ import time
 import xml.etree.ElementTree
 
 from builds import options_of  # first: it says where the following are
-from gfb.run import call, command_of, write_case
+from gfb.program import call, command_of
+from gfb.running import write_case
 
 SECONDS = 1800
 HERE = pathlib.Path(__file__).resolve().parent

@@ -42,7 +42,7 @@ def thin(eps, degrees):
 
 def invariant(answer, eps):
     """Largest relative error of the mean of H^3 P^2 over the ring, which is 1 + 1.5 eps^2 at every z."""
-    film = answer.film()
+    film = answer.film_arrays()
     mean = ((film["gap"]/C)**3*(film["pressure"]/1.0e5)**2)[:-1].mean(axis=0)
     return float(numpy.abs(mean/(1.0 + 1.5*eps**2) - 1.0).max())
 
@@ -100,7 +100,7 @@ def ring_number(trial, number):
 def fast(trial):
     for number, limit in (1.0e3, 3.0e-3), (1.0e4, 1.0e-3):
         film = trial.solve(RING, operation=at(number, 0.5, 0.0), model={"film_scheme": "supg"},
-                           mesh={"circumferential_elements": 208, "axial_elements": 64}).film()
+                           mesh={"circumferential_elements": 208, "axial_elements": 64}).film_arrays()
         product = (film["pressure"]*film["gap"])[:, 32]/(1.0e5*C)
         error = numpy.abs(product/math.sqrt(1.375) - 1.0).max()
         trial.below(f"P H at {number:g}", error, limit)
@@ -148,7 +148,7 @@ def wedge(trial, number, eps, elements):
     least, found = line_pressure(number, eps), {}
     for scheme in "galerkin", "supg":
         film = trial.solve(WEDGE, operation=at(number, eps, 0.0), model={"film_scheme": scheme},
-                           mesh={"circumferential_elements": elements}).film()
+                           mesh={"circumferential_elements": elements}).film_arrays()
         found[scheme] = max(least - film["pressure"][:, 8].min()/1.0e5, 0.0)
     trial.that(f"Galerkin's undershoot {found['galerkin']:.1e} is larger than SUPG's {found['supg']:.1e}",
                found["galerkin"] > 2.0*found["supg"])
@@ -164,7 +164,7 @@ def coarse_wedge(trial, elements):
     mesh = {"circumferential_elements": elements}
     trial.refused(WEDGE, ("film_scheme = 'supg' has an answer",), operation=at(1000.0, 0.5, 0.0), model={"film_scheme": "galerkin"},
                   mesh=mesh)
-    film = trial.solve(WEDGE, operation=at(1000.0, 0.5, 0.0), mesh=mesh).film()
+    film = trial.solve(WEDGE, operation=at(1000.0, 0.5, 0.0), mesh=mesh).film_arrays()
     least = line_pressure(1000.0, 0.5)
     under = max(least - film["pressure"][:, 8].min()/1.0e5, 0.0)
     trial.below("automatic choice: undershoot over the layer's jump", under/(1.0 - least), 0.1)
@@ -214,7 +214,7 @@ def tilted(trial, ratio):
     trial.below("torque is odd", numpy.abs(answers[0].torque + answers[1].torque).max()/numpy.abs(answers[0].torque).max(),
                 1.0e-8)
     trial.below("smallest gap", (answers[0]["minimum_gap"] - (1.0 - ratio)*C)/C, 1.0e-9)
-    first, second = (answer.film()["pressure"] for answer in answers)
+    first, second = (answer.film_arrays()["pressure"] for answer in answers)
     trial.below("mirrored film", numpy.abs(first[:, ::-1]/second - 1.0).max(), 1.0e-8)
     trial.says(f"mirrored, gap {(1.0 - ratio)*C*1e9:.0f} nm")
 
@@ -251,7 +251,7 @@ def narrow(trial):
     length, number, eps = 4.0e-5, 1.0e-2, 0.5
     answer = trial.solve(RING, bearing={"length": length}, operation=at(number, eps, 0.0),
                          mesh={"circumferential_elements": 128, "axial_elements": 16})
-    film = answer.film()
+    film = answer.film_arrays()
     theta, z = film["theta"], film["z"]
     omega = rpm(number)*math.pi/30.0
     gap = C*(1.0 + eps*numpy.cos(theta))

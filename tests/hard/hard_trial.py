@@ -13,7 +13,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/"verification"))
 
 from gfb_run import GFB  # noqa: E402 (found only now; it says where the following is)
-from gfb.run import run_file, write_case  # noqa: E402
+from gfb.running import run_file, write_case  # noqa: E402
 
 SECONDS = 200
 NAMED = ("no equilibrium found", "no answer found")  # what the log says where there is no answer

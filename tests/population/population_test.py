@@ -18,7 +18,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/"verificat
 
 from gfb_run import GFB, Checks  # noqa: E402 (found only now; it says where the following is)
 from gfb.bench.population import members, page, trial  # noqa: E402
-from gfb.run import DONE, call, write_case  # noqa: E402
+from gfb.program import DONE, call  # noqa: E402
+from gfb.running import write_case  # noqa: E402
 
 SCENES = pathlib.Path(__file__).resolve().parent/"scenes"
 SECONDS = 5.0      # CPU time of a member's run at most: how many are stopped depends on the machine, and is no claim

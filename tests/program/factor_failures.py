@@ -9,7 +9,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/"verificat
 
 from gfb_run import GFB, Checks  # noqa: E402 (found only now; it says where the following is)
 from gfb.bench.population.members import BEAM, engineer_member  # noqa: E402
-from gfb.run import DONE, NOT_CONVERGED, run_file, write_case  # noqa: E402
+from gfb.program import DONE, NOT_CONVERGED  # noqa: E402
+from gfb.running import run_file, write_case  # noqa: E402
 
 MACHINE = 3  # status where a file or the machine failed
 TINY = -95   # of the workspace that MUMPS estimates, on top of it [%]

@@ -11,7 +11,8 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
 from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 from gfb.bench.faults import CASE  # noqa: E402 (gfb_run has made it known)
-from gfb.run import ENVIRONMENT, case_text  # noqa: E402
+from gfb.case import Case  # noqa: E402
+from gfb.program import ENVIRONMENT  # noqa: E402
 
 SECONDS = 900
 AVX2 = {"avx2", "fma"}
@@ -67,7 +68,7 @@ def check_user(checks, folder, preload):
 
 def check_runs(checks, folder, preload, wanted):
     """One rank and two compute with it."""
-    (folder/"a case.nml").write_text(case_text(CASE), encoding="utf-8")
+    (folder/"a case.nml").write_text(str(Case(CASE)), encoding="utf-8")
     for ranks in (0, 2):
         done, notes = call(folder, "--output", "two words", "a case.nml", "--petsc", "-name", "", ranks=ranks, preload=preload)
         checks.that(f"{ranks or 1} rank(s): status {done.returncode} {done.stderr}", done.returncode == 0)

@@ -12,10 +12,11 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
 from gfb_run import GFB, MPIEXEC, Checks, read_summary  # noqa: E402
 from gfb.bench.faults import CASE  # noqa: E402 (gfb_run has made it known)
-from gfb.run import ENVIRONMENT, case_text  # noqa: E402
+from gfb.case import Case  # noqa: E402
+from gfb.program import ENVIRONMENT  # noqa: E402
 
 SECONDS = 900
-TEXT = case_text(CASE)
+TEXT = str(Case(CASE))
 LONGEST = 255 - len(".unconverged.bump_foil.steps.vtkhdf")
 
 
@@ -88,14 +89,14 @@ def check_older_results(checks, folder):
     for number, (case, wanted, words) in enumerate((
             (CASE, {"older"}, ""), (heavy, {"older", "older.unconverged"}, "are of an earlier run"),
             (CASE, {"older"}, "older.unconverged.*, of an earlier run without an answer"))):
-        (folder/"older.nml").write_text(case_text(case), encoding="utf-8")
+        (folder/"older.nml").write_text(str(Case(case)), encoding="utf-8")
         status, log, _ = call(folder, "--output", place, "older.nml")
         checks.that(f"run {number + 1}: status {status}", status == (2 if case is heavy else 0))
         checks.that(f"run {number + 1} says '{words}'", words in log)
         files = {path.name for path in place.iterdir()}
         checks.that(f"run {number + 1} leaves {sorted(files)}", files == {
             f"{name}.{ending}" for name in wanted for ending in ("summary", "h5", "film.vtkhdf", "used.nml")})
-    (folder/"older.unconverged.nml").write_text(case_text(CASE), encoding="utf-8")
+    (folder/"older.unconverged.nml").write_text(str(Case(CASE)), encoding="utf-8")
     call(folder, "--output", place, "older.unconverged.nml")
     call(folder, "--output", place, "older.nml")
     checks.that("the answer of a case that is called so stays", (place/"older.unconverged.summary").exists())
@@ -105,7 +106,7 @@ def check_ranks(checks, folder):
     """A small mesh on more and more ranks: the same answer, or a sentence."""
     (folder/"small.nml").write_text(TEXT, encoding="utf-8")
     few = CASE | {"mesh": {"circumferential_elements": 8, "axial_elements": 2}}
-    (folder/"few.nml").write_text(case_text(few), encoding="utf-8")
+    (folder/"few.nml").write_text(str(Case(few)), encoding="utf-8")
     call(folder, "small.nml")
     alone = read_summary(folder/"small.summary")[0]
     for ranks in (3, 16):
@@ -126,7 +127,7 @@ def check_ranks(checks, folder):
 def check_memory(checks, folder):
     """What a run refuses for want of memory, --check refuses too; what is free changes from one call to the next."""
     large = CASE | {"mesh": {"circumferential_elements": 10000, "axial_elements": 4800}}
-    (folder/"large.nml").write_text(case_text(large), encoding="utf-8")
+    (folder/"large.nml").write_text(str(Case(large)), encoding="utf-8")
     complaints = []
     for options in (("--check",), ()):
         status, _, wrong = call(folder, *options, "large.nml")

@@ -64,7 +64,8 @@ class DebTest(PackageTest):
                   *(f"share/{path.relative_to(SOURCE/'share')}" for path in (SOURCE/"share").glob("[!m]*/**/*") if path.is_file()),
                   *(f"share/gfb/inputs/{path.name}" for path in (SOURCE/"inputs").glob("*.nml")),
                   *(f"share/doc/gfb/{path.relative_to(SOURCE)}" for path in (SOURCE/"docs").rglob("*.md")),
-                  *(f"lib/python3/dist-packages/gfb/{name}" for name in ("door.py", "report/page.html", "studio/page.css")),
+                  *(f"lib/python3/dist-packages/gfb/{name}" for name in ("py.typed", "report/page.html", "studio/page.css")),
+                  *(f"lib/python3/dist-packages/gfb/{path.name}" for path in (SOURCE/"tools/gfb").glob("*.py")),
                   *(f"share/doc/gfb/{name}" for name in ("README.md", "LICENSE", "CITATION.cff", "CHANGELOG.md"))}
         self.assertEqual(wanted - listed, set())
         self.assertEqual([path for path in listed if re.match(r"include|lib/(?!$|python3/($|dist-packages/($|gfb)))", path)], [], "parts of the build")

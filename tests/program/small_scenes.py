@@ -8,7 +8,7 @@ import tempfile
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1]/name) for name in ("verification", "floating_point")]
 
 from gfb_run import GFB, Checks  # noqa: E402 (found only now)
-from gfb.run import run_file, write_case  # noqa: E402 (gfb_run has made it known)
+from gfb.running import run_file, write_case  # noqa: E402 (gfb_run has made it known)
 from scenes import SCENES  # noqa: E402
 
 FEW = ("rigid, under a load", "rigid, film order 2", "springs, sweep of speed", "springs, film and foil in turns", "beams, 100 N",

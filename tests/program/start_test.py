@@ -11,7 +11,8 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification"))
 from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 from gfb.bench.faults import CASE  # noqa: E402 (gfb_run has made it known)
-from gfb.run import ENVIRONMENT, case_text  # noqa: E402
+from gfb.case import Case  # noqa: E402
+from gfb.program import ENVIRONMENT  # noqa: E402
 
 SECONDS = 900  # nothing here takes that long
 SAID = "gfb: MPI could not start: "
@@ -31,8 +32,8 @@ def call(folder, *words, ranks=1, **settings):
 
 def check_start(checks, folder):
     """Settings of Open MPI's that name what is not there, and no folder for its session."""
-    (folder/"case.nml").write_text(case_text(CASE), encoding="utf-8")
-    (folder/"sweep.nml").write_text(case_text(CASE | {"sweep": {"parameter": "load", "values": (20.0, 30.0)}}), encoding="utf-8")
+    (folder/"case.nml").write_text(str(Case(CASE)), encoding="utf-8")
+    (folder/"sweep.nml").write_text(str(Case(CASE | {"sweep": {"parameter": "load", "values": (20.0, 30.0)}})), encoding="utf-8")
     faults = [{f"OMPI_MCA_{name}": "nonsense"} for name in ("pml", "btl")]
     faults += [{"OMPI_MCA_orte_tmpdir_base": NOWHERE, "TMPDIR": NOWHERE}]
     for settings in faults:
@@ -64,7 +65,7 @@ def check_folder(checks, folder):
 
 def disturbed(folder, disturb):
     """Status of a long job of two ranks, and its ranks: it is disturbed at its second point, by its process and its last rank."""
-    (folder/"long.nml").write_text(case_text(SWEEP), encoding="utf-8")
+    (folder/"long.nml").write_text(str(Case(SWEEP)), encoding="utf-8")
     with subprocess.Popen([MPIEXEC, "-n", "2", GFB, "long.nml"], cwd=folder, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8",
                           env={**ENVIRONMENT, **os.environ}) as process:

@@ -15,7 +15,8 @@ import tempfile
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1]/name) for name in ("verification", "floating_point")]
 
 from scenes import FILM, SCENES, SHELL, Scene, merged  # noqa: E402 (found only now)
-from gfb.run import case_text, run_file  # noqa: E402
+from gfb.case import Case  # noqa: E402
+from gfb.running import run_file  # noqa: E402
 from same_answer import difference  # noqa: E402
 
 TOLERANCE = 1.0e-8  # other releases of BLAS and MUMPS add in another order
@@ -62,7 +63,7 @@ def compare(folder, systems):
     """Every scene by every system: {scene: {system: (difference, name)}}, and sentences of what is wrong."""
     found, wrong = {}, []
     for scene in [*(scene for scene in SCENES if scene.words in CHOSEN), VIBRATIONS]:
-        text, base, found[scene.words] = case_text(scene.case), None, {}
+        text, base, found[scene.words] = str(Case(scene.case)), None, {}
         with tempfile.TemporaryDirectory() as name:
             for system in systems:
                 place = pathlib.Path(name)/system

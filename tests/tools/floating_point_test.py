@@ -13,13 +13,13 @@ sys.path[:0] = [str(SOURCE/"tests"/name) for name in ("floating_point", "verific
 import memory  # noqa: E402 (found only now)
 import same_answer  # noqa: E402
 import scenes  # noqa: E402
-from gfb_run import Answer  # noqa: E402
+from gfb_run import Result  # noqa: E402
 
 BEARING = "&bearing\n  radius = 0.02\n  length = 0.04\n  clearance = 2e-5\n/\n&gas\n  ambient_pressure = 1e5\n/\n"
 SUMMARY = {"converged": "true", "force_x": 3.0, "friction_torque": 2.0, "newton_iterations": 7.0}
 
 
-class Made(Answer):
+class Made(Result):
     """An answer without files."""
 
     def __init__(self, rows=None, **changes):

@@ -382,7 +382,9 @@ class ForeignTest(unittest.TestCase):
                 ((PROJECT/"tools/plot", path), nothing, "MPLBACKEND=nothing"), ((PROJECT/"tools/report", path), nothing, "MPLBACKEND=nothing"),
                 ((PROJECT/"tools/gallery", "--only", "fig9"), nothing, "MPLBACKEND=nothing"),
                 (("-c", without + "gfb.read('a')", PROJECT/"tools"), {}, "xarray is missing: pip install xarray"),
-                (("-c", without + "gfb.run('a')", PROJECT/"tools"), {}, "xarray is missing: pip install xarray")):
+                (("-c", without + "gfb.study('a')", PROJECT/"tools"), {}, "gfb.study: the Python package xarray is missing: pip install xarray"),
+                (("-c", without + "import pathlib; gfb.Result(0, '', '', pathlib.Path('a'), {}, {}).data", PROJECT/"tools"), {},
+                 "gfb.Result: the Python package xarray is missing: pip install xarray")):
             done = subprocess.run([sys.executable, *map(str, words)], check=False, text=True, capture_output=True,
                                   env={**os.environ, **more})
             self.assertEqual((done.returncode, wanted in done.stderr), (1, True), done.stderr)

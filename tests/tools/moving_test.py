@@ -24,7 +24,7 @@ sys.path[:0] = [str(PROJECT/"tools"), str(pathlib.Path(__file__).parent)]
 import gfb  # noqa: E402 (found only now)
 from gfb import steps  # noqa: E402
 from gfb.plot import animation, clearance, rolled, scene, transient  # noqa: E402
-from gfb.plot.strip import used_keys  # noqa: E402
+from gfb.results import used_keys  # noqa: E402
 from plot_test import BEAMS, call  # noqa: E402
 
 CLEARANCE, RADIUS = 31.8e-6, 19.05e-3

@@ -29,6 +29,8 @@ STUB = """#!{python}
 import pathlib, re, sys
 if "--version" in sys.argv:
     sys.exit(print("gfb stub (x), of a test"))
+if "--keys" in sys.argv:
+    sys.exit(print("| group | key | type | unit | default | meaning |\\n| --- | --- | --- | --- | --- | --- |\\n| `&list` | `values` | list of reals | m | required | some |"))
 path = pathlib.Path(sys.argv[-1])
 with open({calls!r}, "a") as calls:
     calls.write(path.stem + "\\n")

@@ -77,7 +77,8 @@ class Recipes(unittest.TestCase):
                 used = set(re.findall(r"(?:from|import) (gfb\.(?:bench|compare|gallery|html))", path.read_text(encoding="utf-8")))
                 self.assertEqual(used if path.name != "manual.py" else set(), set(), path)
         for module, name in re.findall(r'= "([\w.]+):(\w+)"$', text, re.MULTILINE):
-            self.assertIn(f"def {name}():", text_of(f"tools/{module.replace('.', '/')}.py"))
+            called, = re.findall(rf'^{name} = main_of\("([\w.]+)"\)$', text_of(f"tools/{module.replace('.', '/')}.py"), re.MULTILINE)
+            self.assertRegex(text_of(f"tools/{called.replace('.', '/')}.py"), r"(?m)^def main\(\)")
 
     def test_debian(self):
         """It recommends what the commands need of Python; its scripts are such."""

@@ -1,10 +1,17 @@
 #!/usr/bin/env python3
 """gfb from Python: reading, cases, runs, studies."""
 
+import ast
+import collections.abc
+import graphlib
+import inspect
 import os
 import pathlib
+import pydoc
+import subprocess
 import sys
 import tempfile
+import typing
 import unittest
 import unittest.mock
 import warnings
@@ -14,8 +21,9 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
-from gfb.case import launcher  # noqa: E402
+from gfb import result_names  # noqa: E402
 from gfb.design_study import tell_tilt  # noqa: E402
+from gfb.program import find_program, launcher, read_keys  # noqa: E402
 from gfb.results import Unreadable, read_history  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 from slow import slow  # noqa: E402
@@ -33,6 +41,11 @@ class PythonTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
+    def assert_units(self, dataset):
+        """Every number has a unit, as a coordinate too."""
+        without = [name for name, one in dataset.variables.items() if one.dtype.kind in "fiub" and not one.attrs.get("units")]
+        self.assertEqual(without, [])
+
     def test_run_and_read(self):
         result = gfb.run(gfb.Case(SMALL), self.folder, "small")
         data = result.data
@@ -42,9 +55,52 @@ class PythonTest(unittest.TestCase):
         self.assertIn("smallest", data.minimum_gap.long_name)
         self.assertEqual(data.attrs["analysis"], "equilibrium")
         film = result.film
+        self.assert_units(data)
+        self.assert_units(film)
+        self.assertIs(result.data, data, "read again")
+        self.assertIs(result.film, film, "read again")
         self.assertEqual(film.gap.dims, ("theta", "z"))
         self.assertAlmostEqual(float(film.gap.min()), result["minimum_gap"], delta=1e-18)
         self.assertEqual(gfb.Case.parse(data.attrs["case_file"]), gfb.Case(SMALL))
+
+    def test_what_is_shown(self):
+        """A function with its signature; a result, and a case, in a line."""
+        self.assertTrue(inspect.isfunction(gfb.run))
+        self.assertEqual(list(inspect.signature(gfb.run).parameters), ["case", "folder", "name", "ranks", "options", "gfb"])
+        self.assertIn("ranks: 'int' = 1", pydoc.render_doc(gfb.run))
+        self.assertLessEqual(set(gfb.__all__), set(dir(gfb)))
+        case = gfb.Case(SMALL)
+        self.assertEqual(repr(case), "<gfb.Case equilibrium: 6 groups, 12 keys>")
+        result = gfb.run(case, self.folder, "small")
+        self.assertEqual(repr(result), f"<gfb.Result {self.folder}/small: {len(result.summary)} results>")
+        case["operation%load"] = (-1.0e9, 0.0)
+        shown = repr(gfb.run(case, self.folder, "heavy"))
+        self.assertTrue(shown.startswith(f"<gfb.Result {self.folder}/heavy.unconverged: "), shown)
+        self.assertLess(len(shown) - len(str(self.folder)), 300)
+
+    def test_names_of_results(self):
+        """Those that a type checker knows are of the kind that the program gives, and all that `gfb --results` has but for families."""
+        kinds = {name: kind for kind, names in ((float, result_names.NumberName), (str, result_names.TextName)) for name in typing.get_args(names)}
+        listed = subprocess.run([find_program(), "--results"], capture_output=True, text=True, check=True).stdout
+        cells = [line.split("|")[1] for line in listed.splitlines()[2:]]
+        self.assertEqual(sorted(kinds), sorted({name for cell in cells for name in cell.split("`")[1::2] if "<" not in name}))
+        capacity = gfb.Case(SMALL | {"scene": {"analysis": "load_capacity"}, "capacity": {"smallest_gap": 1.0e-5}})
+        for case in (gfb.Case.template("linear_dynamics"), gfb.Case.template("strip"), capacity):
+            result = gfb.run(case, self.folder)
+            wrong = [name for name, value in result.summary.items() if not isinstance(value, kinds.get(name, type(value)))]
+            self.assertEqual((result.converged, wrong), (True, []))
+        self.assertIn("limit_reached", result.summary)
+
+    def test_no_circle_of_imports(self):
+        """No module imports, by whatever way, one that imports it; inside of functions and for types neither."""
+        names = {".".join(path.relative_to(ROOT/"tools").with_suffix("").parts).removesuffix(".__init__"): path for path in (ROOT/"tools/gfb").rglob("*.py")}
+        graph = {}
+        for name, path in names.items():
+            nodes = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, (ast.Import, ast.ImportFrom))]
+            found = {f"{node.module}.{one.name}" if isinstance(node, ast.ImportFrom) else one.name for node in nodes for one in node.names}
+            graph[name] = {one if one in names else one.rpartition(".")[0] for one in found} & names.keys()
+        self.assertEqual(set(graphlib.TopologicalSorter(graph).static_order()), set(names))
+        self.assertIn("gfb.running", graph["gfb"])
 
     def test_several_ranks(self):
         """Started by what came with the program, or else by mpiexec, where nothing is said."""
@@ -64,6 +120,8 @@ class PythonTest(unittest.TestCase):
         result = gfb.run(case, self.folder, "sweep", options=("--csv",))
         numpy.testing.assert_array_equal(result.data.minimum_gap, read_history(f"{result.stem}.h5")["minimum_gap"])
         self.assertEqual(result.data["load"].dims, ("point",))
+        self.assert_units(result.data)
+        self.assert_units(gfb.read(f"{result.stem}.film.steps.vtkhdf"))
 
     def test_models(self):
         case = gfb.Case(SMALL)
@@ -76,6 +134,7 @@ class PythonTest(unittest.TestCase):
             case[f"top_foil%{key}"] = value
         models = gfb.compare_models(case, ("rigid", "elastic_foundation", "nothing"), self.folder)
         self.assertEqual(list(models.data.status.values), [0, 0, 1])
+        self.assert_units(models.data)
         self.assertEqual(sorted(models.reasons), ["nothing"])
         left_out = " ".join(models.left_out["rigid"])
         for word in ("`&contact`", "`strips`", "`cut_width`"):
@@ -163,6 +222,50 @@ class PythonTest(unittest.TestCase):
         with self.assertRaisesRegex(gfb.CaseError, "no such analysis"):
             gfb.Case.template("nonsense")
 
+    def test_a_case_is_a_mapping(self):
+        case = gfb.Case(SMALL | {"Rotor": {"MASS": 1.0, "bearing_distance": None}, "sweep": None})
+        self.assertIsInstance(case, collections.abc.MutableMapping)
+        self.assertEqual(len(case), len(list(case)))
+        self.assertEqual(case["rotor%mass"], case.get("Rotor%Mass"))
+        self.assertEqual([key in case for key in ("rotor%mass", "ROTOR%MASS", "sweep%values", "rotor%bearing_distance", "rotor", "rotor%", "", 3)],
+                         [True, True] + 6*[False])
+        self.assertIsNone(case.get("rotor"))
+        self.assertNotIn("sweep", case.groups)
+        self.assertEqual(dict(case)["bearing%radius"], 0.02)
+        case.update({"rotor%mass": 2.0}, **{"gas%temperature": 300.0})
+        self.assertEqual((case.pop("rotor%mass"), case.pop("rotor%mass", 5.0), case.setdefault("gas%temperature", 1.0)), (2.0, 5.0, 300.0))
+        self.assertIn("rotor", case.groups)  # an empty group is one that is asked for
+        for wrong in ("rotor%mass", "novel%key", "radius", 3):
+            with self.assertRaisesRegex(KeyError, str(wrong)):
+                case[wrong]
+            with self.assertRaises(KeyError):
+                del case[wrong]
+        turned = gfb.Case({group: dict(reversed(keys.items())) for group, keys in reversed(case.groups.items())})
+        self.assertEqual(turned, case)
+        self.assertNotEqual(turned, dict(case))
+        turned["bearing%radius"] += 1.0e-12
+        self.assertNotEqual(turned, case)
+        case.clear()
+        self.assertEqual((len(case), str(case)), (0, ""))
+
+    def test_values_of_numpy(self):
+        case = gfb.Case(SMALL)
+        case["operation%load"] = numpy.array([-20.0, 0.0])
+        case["mesh%axial_elements"], case["bearing%radius"] = numpy.int64(8), numpy.float64(0.02)
+        self.assertEqual(case, gfb.Case(SMALL))
+        self.assertEqual(str(gfb.Case({"a": {"b": numpy.bool_(True), "c": numpy.float32(0.5)}})), "&a\n  b = .true.\n  c = 0.5\n/\n")
+        for wrong in (None, {1: 2}, {1.0}, object()):
+            case["bearing%radius"] = wrong
+            with self.assertRaisesRegex(TypeError, "no value of a case file"):
+                str(case)
+
+    def test_keys_of_the_program(self):
+        keys = read_keys(find_program())
+        self.assertEqual([keys[name].unit for name in ("bearing%clearance", "operation%speed_rpm", "gas%viscosity", "model%foil")],
+                         ["m", "rpm", "Pa s", ""])
+        echo = gfb.Case.read(gfb.run(gfb.Case(SMALL), self.folder).stem.with_suffix(".used.nml"))
+        self.assertEqual([key for key in echo if key not in keys], [])
+
     def test_every_input_is_read_as_the_program_does(self):
         for path in sorted((ROOT/"inputs").glob("*.nml")):
             with self.subTest(path.name):
@@ -177,16 +280,21 @@ class PythonTest(unittest.TestCase):
         first = gfb.study(gfb.Case(SMALL), values, self.folder)
         self.assertEqual(first.minimum_gap.shape, (2, 2))
         self.assertEqual(first.minimum_gap.units, "m")
+        self.assert_units(first)
+        self.assertEqual([first[key].units for key in values], ["m", "rpm"])
         self.assertTrue((first.status == 0).all() and numpy.isfinite(first.minimum_gap).all())
         before = {path: path.stat().st_mtime_ns for path in self.folder.glob("*.summary")}
         again = gfb.study(gfb.Case(SMALL), values, self.folder)
         self.assertTrue(first.equals(again))
         self.assertEqual(before, {path: path.stat().st_mtime_ns for path in self.folder.glob("*.summary")})
+        loads = gfb.study(gfb.Case(SMALL), {"operation%load": [(-20.0, 0.0), [0.0, -20.0]]}, self.folder, "loads")
+        self.assertEqual((loads["operation%load"].values.tolist(), loads["operation%load"].units), ([(-20.0, 0.0), (0.0, -20.0)], "N"))
+        self.assertTrue(numpy.isfinite(loads.minimum_gap).all())
 
     def test_study_starts_the_program_twice(self):
         """One call checks all members, one computes those that are missing; members without an answer are told."""
         counted, calls = self.folder/"counted", self.folder/"calls"
-        counted.write_text(f'#!/bin/sh\n[ "$1" = --version ] || echo "$#" >> "{calls}"\nexec "{gfb.case.program()}" "$@"\n', encoding="utf-8")
+        counted.write_text(f'#!/bin/sh\n[ "$1" = --version ] || [ "$1" = --keys ] || echo "$#" >> "{calls}"\nexec "{find_program()}" "$@"\n', encoding="utf-8")
         counted.chmod(0o755)
         case, values = gfb.Case(SMALL), {"bearing%clearance": [2.0e-5, 9.0e-4], "operation%speed_rpm": [2.0e4, 2.2e4]}
         first = gfb.study(case, values, self.folder, gfb=counted)
@@ -202,10 +310,10 @@ class PythonTest(unittest.TestCase):
         stopped = self.folder/"stopped"
         stopped.write_text(f'''#!/usr/bin/env bash
 set -m # or the shell has its children ignore SIGINT
-case "$*" in *--check*|*--version*) exec "{gfb.case.program()}" "$@";; esac
-[ -e "{self.folder}/once" ] && exec "{gfb.case.program()}" "$@"
+case "$*" in *--check*|*--version*) exec "{find_program()}" "$@";; esac
+[ -e "{self.folder}/once" ] && exec "{find_program()}" "$@"
 touch "{self.folder}/once"
-"{gfb.case.program()}" "$@" &
+"{find_program()}" "$@" &
 until grep -qs " point 2 of" "{self.folder}/study_0001.log"; do kill -0 $! || break; sleep 0.01; done
 kill -INT $!
 wait $!
@@ -228,7 +336,7 @@ wait $!
     def test_answers_of_another_program(self):
         """They are not taken for this one's: computed again, and said; nor is what an interrupted run of another case has left."""
         newer = self.folder/"newer"
-        newer.write_text(f'#!/bin/sh\n[ "$1" = --version ] && exec echo "gfb 99.0 (abc), of a test"\nexec "{gfb.case.program()}" "$@"\n', encoding="utf-8")
+        newer.write_text(f'#!/bin/sh\n[ "$1" = --version ] && exec echo "gfb 99.0 (abc), of a test"\nexec "{find_program()}" "$@"\n', encoding="utf-8")
         newer.chmod(0o755)
         case, values = gfb.Case(SMALL), {"bearing%clearance": [2.0e-5, 2.5e-5]}
         first = gfb.study(case, values, self.folder)

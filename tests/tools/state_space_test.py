@@ -19,7 +19,7 @@ PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 sys.path.insert(0, str(PROJECT/"tools"))
 
 from gfb import coefficients  # noqa: E402 (found only now)
-from gfb.run import run_file, write_case  # noqa: E402
+from gfb.running import run_file, write_case  # noqa: E402
 from gfb.state_space import CannotFit, Fit, deviation, fit  # noqa: E402
 
 RPM = 60000.0

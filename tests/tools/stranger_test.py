@@ -16,7 +16,7 @@ PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 GFB = os.environ["GFB"]
 sys.path.insert(0, str(PROJECT/"tools"))
 
-from gfb.run import ENVIRONMENT, MPIEXEC  # noqa: E402 (found only now)
+from gfb.program import ENVIRONMENT, launcher  # noqa: E402 (found only now)
 from slow import slow  # noqa: E402
 
 SECONDS = 120
@@ -135,7 +135,7 @@ class Settings(InStrangersFolder):
         self.assertNotIn("given to PETSc", self.call(GFB, "--output", "out", self.case))
         for words in (("--version",), ("--check", self.case), ("--help",)):
             self.call(GFB, *words)
-        self.call(MPIEXEC, "-n", "2", GFB, "--output", "out", self.case)
+        self.call(launcher(GFB), "-n", "2", GFB, "--output", "out", self.case)
         (self.home/".petscrc").write_text("-bearing_snes_max_it 31\n", encoding="utf-8")
         self.addCleanup((self.home/".petscrc").unlink)
         named = self.place/"named"
@@ -156,7 +156,7 @@ class Settings(InStrangersFolder):
         shutil.copy(self.folder/"mca-params.conf", self.folder/".openmpi")
         for all_of_it in ({}, {"OMPI_MCA_osc": ""}, {"OMPI_MCA_osc": "", "OMPI_MCA_pml": ""}):
             self.call(GFB, "--output", "out", self.case, **all_of_it)
-            self.call(MPIEXEC, "-n", "2", GFB, "--output", "out", self.case, **all_of_it)
+            self.call(launcher(GFB), "-n", "2", GFB, "--output", "out", self.case, **all_of_it)
         self.assertEqual(sorted(path.name for path in (self.folder/"out").iterdir()),
                          ["case.film.vtkhdf", "case.h5", "case.summary", "case.used.nml"])
 

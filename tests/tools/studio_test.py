@@ -21,8 +21,9 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 from chromium import BROWSER, Browser  # noqa: E402
-from gfb.case import Case, program  # noqa: E402
+from gfb.case import Case  # noqa: E402
 from gfb.namelist import namelist_value  # noqa: E402
+from gfb.program import find_program  # noqa: E402
 from gfb.results import Unreadable  # noqa: E402
 from gfb.studio import pictures  # noqa: E402
 from gfb.studio.checking import check, read_messages  # noqa: E402
@@ -85,7 +86,7 @@ class Values(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.keys = read_keys(program())
+        cls.keys = read_keys(find_program())
 
     def test_units(self):
         bearing, top_foil = self.keys["bearing"], self.keys["top_foil"]
@@ -106,7 +107,7 @@ class Values(unittest.TestCase):
         radius = self.keys["bearing"]["radius"]
         for words in ("1 furlong", "abc", "1.0 / &gas", "1.0 um um", "'x'", "1,,2"):
             text = with_value(SMALL, "bearing", "radius", namelist_value(radius.typed(words)))
-            found = asyncio.run(check(program(), text))
+            found = asyncio.run(check(find_program(), text))
             self.assertFalse(found.is_right, words)
             self.assertIn(("bearing", "radius"), [(one.group, one.key) for one in found.messages], words)
             self.assertEqual(list(Case.parse(text).groups), list(Case.parse(SMALL).groups), words)
@@ -126,7 +127,7 @@ class Values(unittest.TestCase):
         self.assertGreater(seen, 1000)
 
     def test_the_table_is_that_of_the_program(self):
-        listed = subprocess.run([program(), "--keys"], capture_output=True, text=True, check=True).stdout.count("\n| `&")
+        listed = subprocess.run([find_program(), "--keys"], capture_output=True, text=True, check=True).stdout.count("\n| `&")
         self.assertEqual(sum(map(len, self.keys.values())), listed)
         self.assertIn("shell", self.keys["model"]["foil"].choices)
 
@@ -165,20 +166,20 @@ class Texts(unittest.TestCase):
 class Messages(unittest.TestCase):
     def test_each_has_its_place(self):
         text = SMALL.replace("radius = 0.02 ", "radius = -1.0 ").replace("length = 0.04", "lenght = 0.04").replace("foil = 'rigid'", "foil = 'rigidd'")
-        found = asyncio.run(check(program(), text))
+        found = asyncio.run(check(find_program(), text))
         self.assertEqual({(one.line, one.group, one.key) for one in found.messages if not one.is_warning},
                          {(4, "bearing", "radius"), (5, "bearing", "lenght"), (10, "model", "foil")})
-        without = asyncio.run(check(program(), SMALL.replace("length = 0.04", "")))
+        without = asyncio.run(check(find_program(), SMALL.replace("length = 0.04", "")))
         self.assertEqual([(one.group, one.key) for one in without.messages], [("bearing", "length")])
         self.assertIn("did you mean 'length'", " ".join(map(str, found.messages)))
-        self.assertTrue(asyncio.run(check(program(), SMALL)).is_right)
-        self.assertIn("film mesh: 48 x 8", asyncio.run(check(program(), SMALL)).needs)
+        self.assertTrue(asyncio.run(check(find_program(), SMALL)).is_right)
+        self.assertIn("film mesh: 48 x 8", asyncio.run(check(find_program(), SMALL)).needs)
 
     def test_every_message_of_the_program_has_a_line_or_a_group(self):
         seen = 0
         for path in sorted((ROOT/"tests/bad_input").glob("*.nml"))[::10]:
             text = path.read_bytes().decode("utf-8", "replace")
-            done = subprocess.run([program(), "--check", "-"], input=text.encode(), capture_output=True, check=False)
+            done = subprocess.run([find_program(), "--check", "-"], input=text.encode(), capture_output=True, check=False)
             for one in read_messages(done.stderr.decode("utf-8", "replace")):
                 self.assertNotIn("stdin", one.words, path.name)
                 seen += bool(one.line or one.group)
@@ -188,7 +189,7 @@ class Messages(unittest.TestCase):
 class Checked(InFolder):
     def test_what_a_library_says_beside_it_is_no_mistake(self):
         path = self.folder/"talking"
-        path.write_text(f"#!/bin/sh\necho 'no /sys here' >&2\nexec {program()} \"$@\"\n", encoding="utf-8")
+        path.write_text(f"#!/bin/sh\necho 'no /sys here' >&2\nexec {find_program()} \"$@\"\n", encoding="utf-8")
         path.chmod(0o755)
         self.assertEqual(asyncio.run(check(path, SMALL)).messages, ())
         self.assertFalse(asyncio.run(check(path, SMALL.replace("radius", "radios"))).is_right)
@@ -278,7 +279,7 @@ class Places(InFolder):
         place, elsewhere = Folder(self.folder), self.outside/"elsewhere"
         run = self.folder/"small.run1"
         for folder in (run, elsewhere):
-            subprocess.run([program(), "--quiet", "--output", folder, self.folder/"small.nml"], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([find_program(), "--quiet", "--output", folder, self.folder/"small.nml"], check=True, stdout=subprocess.DEVNULL)
         (self.folder/"link.run1").symlink_to(elsewhere)
         self.assertEqual(place.results(), ["small.run1/small"])
         whole = pictures.read_result(place, "small.run1/small")
@@ -312,7 +313,7 @@ class Processes(InFolder):
     def runs(self, script=None):
         """Runs of gfb, or of a script in its place."""
         if script is None:
-            return Runs(Folder(self.folder), program())
+            return Runs(Folder(self.folder), find_program())
         path = self.outside/"gfb"
         path.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
         path.chmod(0o755)
@@ -373,7 +374,7 @@ class Processes(InFolder):
         script = ("import asyncio, sys\nfrom gfb.studio.runs import Folder, Runs\n"
                   "async def work():\n    run = await Runs(Folder(sys.argv[1]), sys.argv[2]).start('long', sys.stdin.read())\n"
                   "    print(run.process.pid, flush=True)\n    await asyncio.sleep(600)\nasyncio.run(work())\n")
-        with subprocess.Popen([sys.executable, "-c", script, self.folder, program()], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+        with subprocess.Popen([sys.executable, "-c", script, self.folder, find_program()], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
                               env={**os.environ, "PYTHONPATH": str(ROOT/"tools")}) as server:
             server.stdin.write(LONG)
             server.stdin.close()
@@ -404,7 +405,7 @@ class Served(InFolder):
         super().setUp()
         (self.folder/"link.nml").symlink_to(self.outside/"secret.nml")
         self.server = subprocess.Popen([ROOT/"tools/studio", self.folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                       stdin=subprocess.DEVNULL, env={**os.environ, "GFB": program(), "GFB_INSTALL": "no"})
+                                       stdin=subprocess.DEVNULL, env={**os.environ, "GFB": find_program(), "GFB_INSTALL": "no"})
         self.addCleanup(self.end)
         line = self.server.stdout.readline()
         if not line:
@@ -525,7 +526,7 @@ class StartTest(InFolder):
             for words, status, said in ((["none"], 1, "no such folder"), (["--gfb", "none", "--port", "0", "none"], 1, "no such folder"),
                                         (["--port", str(taken.getsockname()[1])], 3, "--port"), (["--port", "99999999"], 3, "--port")):
                 done = subprocess.run([ROOT/"tools/studio", *words], capture_output=True, text=True, check=False, cwd=self.folder,
-                                      env={**os.environ, "GFB": program(), "GFB_INSTALL": "no"}, timeout=SECONDS)
+                                      env={**os.environ, "GFB": find_program(), "GFB_INSTALL": "no"}, timeout=SECONDS)
                 self.assertEqual((done.returncode, done.stderr.count("\n"), said in done.stderr), (status, 1, True), done.stderr)
 
 

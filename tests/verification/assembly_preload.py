@@ -76,7 +76,7 @@ def check_cantilever(checks, folder):
         checks.below(f"{words}: bending stress is the pressure's, the couple has bent the foil to its own shape",
                      largest_difference(stress, numpy.broadcast_to(6.0*moment[:, None]/SHEET["thickness"]**2, stress.shape)),
                      2.0e-3)
-    beam, shell = (at_rest(folder, foil, -0.1, sheet=narrow).film()["deflection"] for foil in ("beam", "shell"))
+    beam, shell = (at_rest(folder, foil, -0.1, sheet=narrow).film_arrays()["deflection"] for foil in ("beam", "shell"))
     checks.below("pressed on its bumps, no lateral contraction: shells are beams", largest_difference(shell, beam), 1.0e-3)
     plain, same = (at_rest(folder, "shell", curvature).physical() for curvature in (None, 0.0))
     checks.that("the bore's radius as free radius: the answer without it to the last digit", plain == same)
@@ -123,7 +123,7 @@ def check_sprung(checks, folder):
     again = angle[(force > 0.0) & (angle > angle.min())].min()
     checks.within("sprung open: the foil lies again, pitches behind the closed form's angle",
                   (again - touch)/(angle[1] - angle[0]), -0.5, 1.0)
-    highest = -answer.film()["deflection"].min()
+    highest = -answer.film_arrays()["deflection"].min()
     checks.below(f"sprung open: rises by {highest/MICROMETRE:.2f} um, off by", highest/(rise*abs(curvature)*RADIUS**2) - 1.0,
                  3.0e-2)
     pressure = moment/RADIUS**2

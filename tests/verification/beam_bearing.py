@@ -42,7 +42,7 @@ def check_reference(checks, folder):
         check_balance(checks, words, run)
         if edge == "trailing":
             check_resting(checks, words, run)
-        film = run.film()
+        film = run.film_arrays()
         checks.that(f"{words}: all stations of a row along z move as one",
                     numpy.ptp(film["gap"], axis=1).max() <= 1.0e-12*BEARING.clearance)
     smooth, rubbing = (beams(folder, "friction", mesh=PAPER_MESH,
@@ -98,13 +98,13 @@ def check_rest(checks, folder):
     """Without speed nothing moves."""
     place = numpy.array((22.0e-6, 8.0e-6))
     run = beams(folder, "rest", **held(place, speed_rpm=0.0))
-    film = run.film()
+    film = run.film_arrays()
     gap = BEARING.clearance + place[0]*numpy.cos(film["theta"]) + place[1]*numpy.sin(film["theta"])
     checks.that("at rest: ambient pressure, exactly", numpy.all(film["pressure"] == BEARING.ambient_pressure))
     checks.that("at rest: no deflection, exactly", not numpy.any(film["deflection"]))
     checks.below("at rest: undeflected gap", largest_difference(film["gap"], gap), 1.0e-12)
     checks.below("at rest: no force", numpy.abs(run.force).max()/BEARING.force_unit, 1.0e-12)
-    moved = beams(folder, "moving", **held(place)).film()
+    moved = beams(folder, "moving", **held(place)).film_arrays()
     checks.that("at speed: the top foil moves", numpy.abs(moved["deflection"]).max() > 0.01*BEARING.clearance)
 
 

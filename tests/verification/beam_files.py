@@ -70,7 +70,7 @@ def check_sheets(checks, words, run, contacts):
         checks.below(f"{words}: {name} moves alike along z", largest_difference(field, field[:, :1] + 0.0*field), 0.0)
         checks.below(f"{words}: {name} does not move along z", numpy.abs(field[:, :, 2]).max(), 0.0)
         checks.that(f"{words}: {name} moves", numpy.abs(field[:, 0, 1]).max() > 0.02*BEARING.clearance)
-    film = run.film()
+    film = run.film_arrays()
     checks.below(f"{words}: the film's deflection is the top foil's", largest_difference(
         film["deflection"], -moved[:, :, 1]), 1.0e-15)
     interior = numpy.ones(len(bumps), dtype=bool)
@@ -115,7 +115,7 @@ def check_field(checks, words, run, contacts):
 
 def film_forces(run):
     """Force of the film on each station of the top foil, along v [N/m of width], linear between stations."""
-    film = run.film()
+    film = run.film_arrays()
     x, z = film["x"][:, 0], film["z"][0]
     pressure = film["pressure"] - BEARING.ambient_pressure
     mean = numpy.sum(0.5*(pressure[:, 1:] + pressure[:, :-1])*numpy.diff(z), axis=1)/(z[-1] - z[0])

@@ -66,7 +66,7 @@ def check_row(checks, folder, row):
 
 def invariant_error(folder, mesh, number, eps):
     """Largest relative error of the integral of H^3 P^2 over the ring, at the rows of nodes."""
-    film = solve(folder, RING, mesh, 2, number=number, eccentricity=(eps*RING.clearance, 0.0)).film()
+    film = solve(folder, RING, mesh, 2, number=number, eccentricity=(eps*RING.clearance, 0.0)).film_arrays()
     integrand = (film["gap"]/RING.clearance)**3*(film["pressure"]/RING.ambient_pressure)**2
     return float(numpy.abs(integrand[:-1].mean(axis=0)/(1.0 + 1.5*eps**2) - 1.0).max())
 
@@ -97,7 +97,7 @@ def check_mean(checks, folder):
     bearing = Bearing()
     stiffness = 0.5*bearing.ambient_pressure/bearing.clearance
     film = solve(folder, bearing, (32, 8), 2, number=2.0, eccentricity=(0.0, 0.5*bearing.clearance),
-                 **on_springs(stiffness, "axial_mean")).film()
+                 **on_springs(stiffness, "axial_mean")).film_arrays()
     over = film["pressure"] - bearing.ambient_pressure
     mean = (over[:, :-2:2] + 4.0*over[:, 1::2] + over[:, 2::2]).sum(axis=1)/6.0/8.0
     checks.below("mean foundation: deflection", numpy.abs(film["deflection"] - mean[:, None]/stiffness).max()/

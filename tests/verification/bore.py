@@ -85,7 +85,7 @@ def check_ring(checks, folder):
     row = rows("bore_wave")[0]
     found = []
     for mesh in ((36, 12), (72, 24)):
-        film = solve(folder, ring, row, mesh, 2, {"bore": bore_of(ring, row["parameters"])}).film()
+        film = solve(folder, ring, row, mesh, 2, {"bore": bore_of(ring, row["parameters"])}).film_arrays()
         cube = (film["gap"][:-1]/ring.clearance)**3
         held = (cube*(film["pressure"][:-1]/ring.ambient_pressure)**2).mean(axis=0)/cube.mean(axis=0) - 1.0
         found.append(numpy.abs(held).max())

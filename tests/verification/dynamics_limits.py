@@ -73,7 +73,7 @@ def edge_layers(bearing, frequency):
 def check_fast(checks, folder):
     """The limit is approached as w^-1/2, by the edge layers' closed form; what is left falls as 1/w."""
     answer, frequency, found = coefficients(folder, RING, (24, 96), 2.0, (50.0, 200.0))
-    limit, layers = trapped(RING, answer.film())[None], edge_layers(RING, frequency)
+    limit, layers = trapped(RING, answer.film_arrays())[None], edge_layers(RING, frequency)
     for name, block in (("translation", BLOCKS[0]), ("tilts", BLOCKS[1])):
         size = numpy.abs(limit[:, block, block]).max()
         off = numpy.abs((found - limit)[:, block, block]).max(axis=(1, 2))/size

@@ -89,7 +89,7 @@ def compare(checks, words, whole, parts, sizes, limit=LIMIT):
     counts = other["history/newton_iterations"]
     checks.that(f"{words}: iterations are counted on from group to group",
                 all(numpy.diff(counts) > 0) and other["summary/newton_iterations"] >= counts[-1])
-    checks.below(f"{words}: film", max(largest_difference(a, parts.film()[name]) for name, a in whole.film().items()),
+    checks.below(f"{words}: film", max(largest_difference(a, parts.film_arrays()[name]) for name, a in whole.film_arrays().items()),
                  limit)
 
 

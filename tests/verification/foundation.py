@@ -47,7 +47,7 @@ def check_film_file(checks, folder):
     place = (0.3*bearing.clearance, 0.4*bearing.clearance)
     for pressure in ("local", "axial_mean"):
         film = run(folder, "film", bearing, mesh=(64, 16), number=2.0, eccentricity=place,
-                   **on_springs(stiffness, pressure)).film()
+                   **on_springs(stiffness, pressure)).film_arrays()
         angle, z = film["theta"], film["z"]
         over = film["pressure"] - bearing.ambient_pressure
         if pressure == "axial_mean":

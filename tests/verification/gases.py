@@ -92,7 +92,7 @@ def check_rings(checks, folder):
             ("slip", ring, slip, {"mean_free_path": kn*ring.clearance}, lambda p: 0.5*p**2, 6.0*kn),
             ("real gas", dense, real, dict(CARBON_DIOXIDE, viscosity_exponent=0.5),
              lambda p: numpy.interp(p, pressure, integral), 0.0)):
-        found = [invariant_error(solve(folder, bearing, row, mesh, 2, {"gas": gas}).film(), bearing, potential, slips)
+        found = [invariant_error(solve(folder, bearing, row, mesh, 2, {"gas": gas}).film_arrays(), bearing, potential, slips)
                  for mesh in ((36, 12), (72, 24))]
         checks.below(f"ring, {name}: integral along z", found[-1], 1.0e-4)
         checks.that(f"ring, {name}: order {observed_order(*found):.2f} (at least 2.5)", observed_order(*found) > 2.5)

@@ -1,4 +1,4 @@
-"""What the checks share: bearings made on the fly, runs of gfb (tools/gfb/run.py), differences, counted claims."""
+"""What the checks share: bearings made on the fly, runs of gfb (tools/gfb/running.py), differences, counted claims."""
 
 import dataclasses
 import math
@@ -11,11 +11,15 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 
-import gfb.run  # noqa: E402 (found only now)
-from gfb.results import COST, Answer, read_summary, seal  # noqa: E402, F401 (the checks take them from here)
-from gfb.run import MPIEXEC, namelist_value, write_case  # noqa: E402, F401
+from gfb import running  # noqa: E402 (found only now)
+from gfb.case import Case  # noqa: E402
+from gfb.namelist import namelist_value  # noqa: E402, F401 (the checks take them from here)
+from gfb.program import launcher  # noqa: E402
+from gfb.results import COST, read_summary, seal  # noqa: E402, F401
+from gfb.running import Result, write_case  # noqa: E402, F401
 
 GFB = os.environ.get("GFB", "gfb")
+MPIEXEC = launcher(GFB)
 SECONDS = 900  # no run here takes that long
 ROUNDING = {"energy_imbalance": 1.0}  # what is rounding alone is compared with
 
@@ -44,7 +48,7 @@ class Bearing:
 
 def case_text(bearing, **case):
     """The case file of case_groups."""
-    return gfb.run.case_text(case_groups(bearing, **case))
+    return str(Case(case_groups(bearing, **case)))
 
 
 def case_groups(bearing, mesh=(104, 30), foil="rigid", load=None, eccentricity=None, number=None,
@@ -71,7 +75,7 @@ def case_groups(bearing, mesh=(104, 30), foil="rigid", load=None, eccentricity=N
 
 def run_file(path, folder, ranks=1, options=(), status=0, environment=None):
     """Runs gfb on a case file; stops the whole check where it ends with another status."""
-    answer = gfb.run.run_file(GFB, path, folder, ranks, options, seconds=SECONDS, environment=environment)
+    answer = running.run_file(GFB, path, folder, ranks, options, seconds=SECONDS, environment=environment)
     if answer.status != status:
         sys.exit(f"{path} {' '.join(options)}: status {answer.status}, not {status}\n{answer.log[-3000:]}\n"
                  f"{answer.complaint[-3000:]}")

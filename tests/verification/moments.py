@@ -73,7 +73,7 @@ def check_written(checks, folder, name, bearing, **case):
     for mesh in MESHES:
         answer = run(folder, name, bearing, mesh=mesh, number=3.0, **case)
         e, tilt = answer.eccentricity, case.get("tilt", (0.0, 0.0))
-        force, torque, shaft, sleeve = integrals(bearing, answer.film(), bearing.speed_rpm(3.0), e, tilt)
+        force, torque, shaft, sleeve = integrals(bearing, answer.film_arrays(), bearing.speed_rpm(3.0), e, tilt)
         moment = e[0]*force[1] - e[1]*force[0] + tilt[1]*torque[0] - tilt[0]*torque[1]
         errors.append((shaft - sleeve)/moment - 1.0)
     checks.below(f"{name}: force of the summary", numpy.abs(force - answer.force).max()/sizes["force_x"], ROUND_OFF)
@@ -90,7 +90,7 @@ def check_suction(checks, folder):
     bearing = Bearing()
     answer = run(folder, "suction", bearing, mesh=MESHES[-1], number=3.0,
                  eccentricity=(0.4*bearing.clearance, 0.0), tilt=(2.0e-4, 1.0e-4))
-    film = answer.film()
+    film = answer.film_arrays()
     film["pressure"] = numpy.maximum(film["pressure"], bearing.ambient_pressure)
     torque = integrals(bearing, film, 0.0, answer.eccentricity, (2.0e-4, 1.0e-4))[1]
     found = numpy.array([answer[f"torque_{axis}_without_suction"] for axis in "xy"])

@@ -80,7 +80,7 @@ def check_preload(checks, folder):
             answer = solve(folder, "preload", of_pads(foil, {"first_leading_edge": 0.3, "preload": preload,
                                                              "preload_offset": 0.4}, place))
             answers.append(answer)
-            films.append(answer.film())
+            films.append(answer.film_arrays())
         for field in ("gap", "pressure"):
             checks.below(f"{foil}: a preload is a shift: {field}", largest_difference(films[0][field], films[1][field]),
                          1.0e-9 if foil == "beam" else 1.0e-12)
@@ -219,7 +219,7 @@ def check_bore(checks, folder):
 
 def check_film(checks, folder):
     """The written gap, pad by pad, is the formula."""
-    film = solve(folder, "film", of_pads("rigid", {"count": 3, "first_leading_edge": 0.2})).film()
+    film = solve(folder, "film", of_pads("rigid", {"count": 3, "first_leading_edge": 0.2})).film_arrays()
     theta, pad = film["theta"], film["pad"]
     centre = 0.2 + (pad - 1.0)*TURN + 0.5*2.0
     gap = 3.18e-5*(1.0 - 0.2*numpy.cos(theta - centre)) + PLACE[0]*numpy.cos(theta) + PLACE[1]*numpy.sin(theta)

@@ -16,7 +16,7 @@ import h5py
 import numpy
 
 from contact_strips import COARSE, FORCE, PAIR
-from gfb_run import COST, GFB, MPIEXEC, SECONDS, Answer, Checks, largest_difference, read_summary, \
+from gfb_run import COST, GFB, MPIEXEC, SECONDS, Checks, Result, largest_difference, read_summary, \
     run_file, seal, write_case
 from shell_bearing import BEARING, BUMPS, SHEET, SIZES, SPEED
 from thrust import SPRINGS, thrust
@@ -101,7 +101,7 @@ def command_of(path, folder, ranks, restart):
 def read_answer(path, folder):
     """What a run left behind."""
     stem = pathlib.Path(folder)/pathlib.Path(path).stem
-    return Answer(0, "", "", stem, *read_summary(f"{stem}.summary"))
+    return Result(0, "", "", stem, *read_summary(f"{stem}.summary"))
 
 
 def run_whole(path, folder, ranks):

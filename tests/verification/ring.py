@@ -33,7 +33,7 @@ def solved(folder, mesh, number, eps):
 def invariant_error(folder, mesh, number, eps):
     """Largest relative error of E1 over all z."""
     answer = solved(folder, mesh, number, eps)
-    film = answer.film()
+    film = answer.film_arrays()
     integrand = (film["gap"]/RING.clearance)**3*(film["pressure"]/RING.ambient_pressure)**2
     angle = film["theta"][:, 0]
     if not math.isclose(math.remainder(angle[-1] - angle[0], 2.0*math.pi), 0.0, abs_tol=1.0e-12):
@@ -87,7 +87,7 @@ def check_limit(checks, folder):
         checks.within(f"E2: exponent of the approach, Lambda {numbers[i]:g} to {numbers[i + 1]:g}",
                       -observed_order(deficits[i], deficits[i + 1], 4.0), -0.55, -0.45)
     checks.below("E2: limit, extrapolated", (2.0*forces[2] - forces[1])/limit - 1.0, 1.0e-3)
-    film = answer.film()
+    film = answer.film_arrays()
     product = film["pressure"]*film["gap"]/(RING.ambient_pressure*RING.clearance)
     checks.below("E2: P H at the midplane", largest_difference(
         product[:, product.shape[1]//2], numpy.full(len(product), math.sqrt(1.0 + 1.5*eps**2))), 1.0e-3)
@@ -105,7 +105,7 @@ def check_direction(checks, folder):
     turn = numpy.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     checks.below("turned shaft: force turns with it", largest_difference(
         turn@answers[0].force, answers[1].force), 1.0e-10)
-    first, second = (answer.film()["pressure"] for answer in answers)
+    first, second = (answer.film_arrays()["pressure"] for answer in answers)
     checks.below("turned shaft: pressure turns with it", largest_difference(
         numpy.roll(first[:-1], turned, axis=0), second[:-1]), 1.0e-10)
     checks.below("ring closed: last station is the first", largest_difference(second[0], second[-1]), 0.0)

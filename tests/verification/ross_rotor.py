@@ -150,7 +150,7 @@ def main():
         run_page()
         return
     from gfb_run import GFB, Checks
-    from gfb.run import run_file, write_case
+    from gfb.running import run_file, write_case
     from pypi import SKIPPED, python_with
     pythons = {name: python_with(name, shutil.which(wanted) or "/usr/bin/python3")
                for name, wanted in (("ross", "python3.11"), ("ross3", "python3.13"))}

@@ -114,7 +114,7 @@ def compare(checks, words, one, other, limit):
     """All numbers of two summaries, and the films where the nodes are the same."""
     difference, name = summary_difference(one, other, SIZES)
     checks.below(f"{words}: summary ({name})", difference, limit)
-    first, second = one.film(), other.film()
+    first, second = one.film_arrays(), other.film_arrays()
     checks.below(f"{words}: film", max(largest_difference(first[key], second[key]) for key in first), limit)
 
 
@@ -165,7 +165,7 @@ def check_stiff(checks, folder, solver=solve):
             foil = {"thickness": 0.4e-3, "youngs_modulus": factor*SHEET["youngs_modulus"]}
             run = solver(folder, "stiff", top_foil=foil, bump_foil=foil,
                          contact={"normal_stiffness": 5.0e7*factor}, **place)
-            off.append(max(largest_difference(run.film()["pressure"], wanted.film()["pressure"]),
+            off.append(max(largest_difference(run.film_arrays()["pressure"], wanted.film_arrays()["pressure"]),
                            numpy.abs(run.force - wanted.force).max()/numpy.linalg.norm(wanted.force),
                            numpy.abs(run.eccentricity - wanted.eccentricity).max()/BEARING.clearance))
         checks.below(f"very stiff foils, {words}: the rigid film", off[1], 1.0e-4)
@@ -176,7 +176,7 @@ def check_rest(checks, folder):
     """Without speed nothing moves."""
     place = numpy.array((22.0e-6, 8.0e-6))
     run = solve(folder, "rest", **held(place, speed_rpm=0.0))
-    film = run.film()
+    film = run.film_arrays()
     gap = BEARING.clearance + place[0]*numpy.cos(film["theta"]) + place[1]*numpy.sin(film["theta"])
     checks.below("at rest: undeflected gap", largest_difference(film["gap"], gap), 1.0e-12)
     checks.below("at rest: ambient pressure", largest_difference(
@@ -197,7 +197,7 @@ def check_mirror(checks, folder):
     checks.that("tilt: there is a torque", runs[0]["torque_x"] > 1.0e-3*SIZES["torque_x"])
     checks.below("mirrored tilt: torque is odd", numpy.abs(runs[0].torque + runs[1].torque).max()/torque, 1.0e-8)
     checks.below("mirrored tilt: force is even", numpy.abs(runs[0].force - runs[1].force).max()/force, 1.0e-8)
-    first, second = (run.film() for run in runs)
+    first, second = (run.film_arrays() for run in runs)
     for name in ("pressure", "gap"):
         checks.below(f"mirrored tilt: {name}", largest_difference(first[name][:, ::-1], second[name]), 1.0e-8)
 

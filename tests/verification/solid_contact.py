@@ -60,7 +60,7 @@ def check_position(checks, folder):
     checks.below("no power at rest", answer["power_loss"], 0.0)
     peak = ROUGH["pressure"]*math.exp(-answer["minimum_gap"]/ROUGH["roughness"])
     checks.below("largest solid pressure", answer["maximum_solid_contact_pressure"]/peak - 1.0, 1.0e-9)
-    film = answer.film()
+    film = answer.film_arrays()
     wanted = ROUGH["pressure"]*numpy.exp(-film["gap"]/ROUGH["roughness"])
     checks.below("field of the solid pressure", largest_difference(film["solid_contact_pressure"], wanted), 1.0e-9)
 

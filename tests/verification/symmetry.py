@@ -37,7 +37,7 @@ def check_half_width(checks, folder):
             difference, worst = summary_difference(*answers, natural_sizes(BEARING))
             checks.below(f"{words}: summary ({worst})", difference, LIMIT)
             checks.that(f"{words}: fewer unknowns", answers[0]["unknowns"] < 0.6*answers[1]["unknowns"])
-            half, whole = (answer.film() for answer in answers)
+            half, whole = (answer.film_arrays() for answer in answers)
             checks.below(f"{words}: film", max(largest_difference(half[key], whole[key]) for key in whole), LIMIT)
 
 
@@ -67,7 +67,7 @@ def check_mirror(checks, folder):
             checks.below(f"{words}: force is even", numpy.abs(
                 answers[0].force - answers[1].force).max()/sizes["force_x"], LIMIT)
             checks.that(f"{words}: there is a torque", numpy.abs(answers[0].torque).max() > 1.0e-3*sizes["torque_x"])
-            first, second = (answer.film()["pressure"] for answer in answers)
+            first, second = (answer.film_arrays()["pressure"] for answer in answers)
             checks.below(f"{words}: pressure is mirrored", largest_difference(first[:, ::-1], second), LIMIT)
 
 
@@ -84,7 +84,7 @@ def check_thinnest(checks, folder):
     radius, end = 0.5*BEARING.clearance, 0.5*BEARING.length
     answer = run(folder, "thinnest", BEARING, mesh=(64, 16), number=3.0, eccentricity=(radius, 0.0),
                  tilt=(0.0, 2.0e-4))
-    film = answer.film()
+    film = answer.film_arrays()
     least = numpy.unravel_index(numpy.argmin(film["gap"]), film["gap"].shape)
     checks.below("thinnest film opposite to (e_x, 0)", film["theta"][least] - numpy.pi, 1.0e-12)
     checks.below("and at the end where z tilt_y is positive", film["z"][least] - end, 1.0e-12)

@@ -47,7 +47,7 @@ def made_up(frequency):
 def bearing(gfb, folder):
     """Frequencies and Z of a small bearing on springs, tilts with an arm that makes the entries comparable."""
     from gfb.coefficients import read_coefficients
-    from gfb.run import run_file, write_case
+    from gfb.running import run_file, write_case
     ratios = [0.05*i for i in range(1, 20)] + [1.0 + 0.1*i for i in range(11)]
     case = {"scene": {"analysis": "linear_dynamics"}, "bearing": {"radius": 19.05e-3, "length": 38.1e-3, "clearance": 31.8e-6},
             "gas": {"viscosity": 1.95e-5, "ambient_pressure": 1.0135e5}, "operation": {"speed_rpm": 60000.0, "load": (-30.0, 0.0)},

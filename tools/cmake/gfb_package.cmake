@@ -1,7 +1,7 @@
 # `cpack -G DEB` in a build folder, or `tools/package deb`, makes a package for Debian of what `cmake --install` installs and of gfb
 # for Python with its commands.
 
-# What the commands need of Python. xarray, for gfb.read and gfb.run, brings another GB along on Debian: only suggested.
+# What the commands need of Python. xarray, for gfb.read and gfb.study, brings another GB along on Debian: only suggested.
 file(STRINGS ${PROJECT_SOURCE_DIR}/tools/setup.sh python REGEX "^report_packages=")
 string(REGEX MATCHALL "python3-[a-z0-9]+" python "${python}")
 list(JOIN python ", " python)

@@ -5,7 +5,7 @@ import re
 import shutil
 import subprocess
 
-from gfb.run import call
+from gfb.program import call
 from gfb.tool import ROOT, stop
 
 BUILDS = ROOT/"build/compare"  # a folder a revision
@@ -21,19 +21,19 @@ def program_of(given, name):
     revision = found.stdout.strip()
     if found.returncode != 0:
         stop(f"{name} {given}: neither a program nor a revision")
-    source, built = (BUILDS/revision/part for part in ("source", "build"))
-    if not (built/"gfb").exists():
+    source, built = (str(BUILDS/revision/part) for part in ("source", "build"))
+    if not os.path.exists(f"{built}/gfb"):
         print(f"building {revision[:12]} ...", flush=True)
         shutil.rmtree(source, ignore_errors=True)  # what an interrupted call left
-        built.mkdir(parents=True, exist_ok=True)
-        for command in (["git", "clone", "--quiet", "--shared", "--no-checkout", ROOT, source],  # it knows its commit
+        os.makedirs(built, exist_ok=True)
+        for command in (["git", "clone", "--quiet", "--shared", "--no-checkout", str(ROOT), source],  # it knows its commit
                         ["git", "-C", source, "checkout", "--quiet", "--detach", revision],
                         ["cmake", "-S", source, "-B", built, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                          "-DGFB_TESTS=OFF"],
                         ["cmake", "--build", built, "--target", "gfb"]):
             if subprocess.run(command, stdout=subprocess.DEVNULL, check=False, cwd=ROOT, env=own).returncode != 0:
-                stop(f"{name} {given}: '{' '.join(map(str, command))}' failed", 3)
-    return str(built/"gfb")
+                stop(f"{name} {given}: '{' '.join(command)}' failed", 3)
+    return f"{built}/gfb"
 
 
 def version_of(program):

@@ -22,10 +22,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from gfb.case import Case, CaseError
-from gfb.door import DONE, ENDINGS, RunError, find_member, run_member
+from gfb.members import find_member, run_member
 from gfb.report.glance import carried_by, glance
 from gfb.report.main import read_run, write_page
-from gfb.results import read_history, read_summary
+from gfb.results import read_history
 from gfb.tool import draw_into_files, parser_of, say
 
 DIRECTIONS = 12                      # of the load, around the bearing
@@ -86,7 +86,8 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     parts = parts_of(case, smallest_gap, grade)
-    parts[0].case.check(gfb=gfb)
+    if parts[0].case is not None:  # what is wrong with the case itself is told
+        parts[0].case.check(gfb=gfb)
     for part in parts:
         while part.case is not None:
             try:
@@ -95,24 +96,24 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
             except CaseError as error:
                 if not without_idle_keys(part.case, str(error)):
                     part.case, part.left_out = None, " ".join(line.partition(": ")[2] for line in str(error).splitlines())
-    todo = [part for part in parts if part.case is not None]
+    todo = [(part, part.case) for part in parts if part.case is not None]
     done, lock, began = 0, threading.Lock(), time.monotonic()
 
-    def compute(part: Part) -> None:
+    def compute(part: Part, of_part: Case) -> None:
         nonlocal done
         stem = folder/f"{name}_{part.name}"
-        status, _, _ = find_member(part.case, stem, gfb) or run_member(part.case, stem, gfb, tell)
-        part.stem = stem if status == DONE else folder/(stem.name + ENDINGS[status].removesuffix(".summary"))
+        result = find_member(of_part, stem, gfb) or run_member(of_part, stem, gfb, tell)
+        part.stem = result.stem
         with lock:
             done += 1
             left = (time.monotonic() - began)*(len(todo) - done)/done
-            tell(f"{done} of {len(todo)}: {part.question}" + ("" if status == DONE else ": no answer")
+            tell(f"{done} of {len(todo)}: {part.question}" + ("" if result.converged else ": no answer")
                  + (f"; about {left:.0f} s left" if done < len(todo) else ""))
-            if part.name == "point" and status == DONE and any(other.name == "misalignment" for other in todo):
-                tell_tilt(case, read_summary(f"{stem}.summary")[0], tell)
+            if part.name == "point" and result.converged and any(other.name == "misalignment" for other, _ in todo):
+                tell_tilt(case, result.summary, tell)
 
     with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
-        list(pool.map(compute, todo))
+        list(pool.map(lambda both: compute(*both), todo))
     return Design(parts, rows_of(parts, gfb), folder, name)
 
 
@@ -195,7 +196,7 @@ def without_idle_keys(case: Case, complaint: str) -> bool:
     idle = set(IDLE.findall(complaint))
     if not idle or "sensitivity%parameters" not in case:
         return False
-    left = [both for both in zip(listed(case["sensitivity%parameters"]), listed(case["sensitivity%tolerances"])) if both[0] not in idle]
+    left = [both for both in zip(case.listed("sensitivity%parameters"), case.listed("sensitivity%tolerances")) if both[0] not in idle]
     if left:
         case["sensitivity%parameters"], case["sensitivity%tolerances"] = (tuple(one) for one in zip(*left))
     return bool(left)
@@ -274,8 +275,8 @@ def answer_orbit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str
 def answer_tolerances(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
     """The spread of the film, and the three keys that do most of it."""
     case, summary = run["used"], run["summary"]
-    names = re.findall(r"\w+%\w+", " ".join(map(str, listed(case["sensitivity%parameters"]))))
-    tolerances = dict(zip(names, listed(case["sensitivity%tolerances"])))
+    names = re.findall(r"\w+%\w+", " ".join(map(str, case.listed("sensitivity%parameters"))))
+    tolerances = dict(zip(names, case.listed("sensitivity%tolerances")))
     shares = sorted(((abs(summary[f"d_minimum_gap_d_{key.replace('%', '_')}"]["value"])*value, key) for key, value in tolerances.items()
                      if f"d_minimum_gap_d_{key.replace('%', '_')}" in summary), reverse=True)
     spread = summary.get("standard_deviation_minimum_gap", {}).get("value", math.sqrt(sum(share**2 for share, _ in shares)))
@@ -287,11 +288,6 @@ def answer_limit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str
     """The row of a limit."""
     rows = [row for row in glance(run["summary"], run["used"]) if row[0] in ("misalignment left", "lift-off speed")]
     return [(question, answer, verdict, bad) for _, answer, verdict, bad in rows]
-
-
-def listed(value: Any) -> tuple[Any, ...]:
-    """One value or several."""
-    return value if isinstance(value, tuple) else (value,)
 
 
 ANSWERS = {"directions": answer_directions, "capacity": answer_capacity, "whirl": answer_whirl, "orbit": answer_orbit,
@@ -318,9 +314,6 @@ def main() -> int:
     except CaseError as error:
         print(error, file=sys.stderr)
         return 1
-    except RunError as error:
-        print(error, file=sys.stderr)
-        return error.status if error.status > 0 else 3
     print(found.table())
     print(f"written: {found.page(options.gfb)}")
     return 0

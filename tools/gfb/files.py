@@ -7,10 +7,11 @@ import os
 import pathlib
 import secrets
 import stat
+from typing import Optional
 
 MOST_TEXT = 2**22  # bytes of a case, or of a summary; the program reads a quarter of it
 CALM = os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
-_within = contextvars.ContextVar("within", default=None)  # the folder, where a part of the work keeps to one
+_within: contextvars.ContextVar[Optional[pathlib.Path]] = contextvars.ContextVar("within", default=None)  # the folder, where a part of the work keeps to one
 
 
 class Unfit(OSError):

@@ -13,6 +13,7 @@ import numpy
 
 from gfb.case import Case
 from gfb.coefficients import SAME, columns_of, is_sweep, read_at_speed, read_speeds, read_synchronous, speeds_of
+from gfb.members import find_member, run_member
 
 HOW_TO_INSTALL = ("pip install './tools[ross]' in a checkout of gfb; before Python 3.12 that is pip install 'ross-rotordynamics==2.3.0' 'plotly<6', "
                   "for ROSS 2.3 cannot be imported with plotly 6 and newer, else 'ross-rotordynamics>=3'")
@@ -84,10 +85,9 @@ def file_of(bearing: Any, number: int, folder: pathlib.Path, gfb: str | os.PathL
         return pathlib.Path(bearing)
     if not isinstance(bearing, Case):
         return pathlib.Path(f"{bearing.stem}.h5")
-    from gfb.door import DONE, find_member, run_member  # these need xarray, files do without
     folder.mkdir(parents=True, exist_ok=True)
     stem = folder/f"bearing_{number}"
-    if (find_member(bearing, stem, gfb) or run_member(bearing, stem, gfb))[0] != DONE:
+    if not (find_member(bearing, stem, gfb) or run_member(bearing, stem, gfb)).converged:
         raise ValueError(f"{stem}.nml: there is no answer, so neither stiffness nor damping")
     return pathlib.Path(f"{stem}.h5")
 

@@ -6,8 +6,8 @@ file holds, without a word; and a few kilobytes are as many numbers, groups and 
 import h5py
 import numpy
 
-from gfb.case import Case
 from gfb.files import MOST_TEXT
+from gfb.namelist import groups_of
 
 MODEST = 2**27  # bytes that the arrays of any file may hold together: less than any tool needs for a picture
 FOLDED = 100    # of more the bytes a byte of the file may stand for: gfb's own fields, which it compresses, stay below 20
@@ -28,7 +28,7 @@ def look_through(file, size):
     sizes = {name: bytes_of(name, data, size) for name, data in arrays.items()}
     held = sum(sizes.values())
     if held > max(MODEST, FOLDED*size):
-        name = max(sizes, key=sizes.get)
+        name = max(sizes, key=lambda one: sizes[one])
         raise ValueError(f"{words_of(name)}: the file's {size:,} bytes stand for {held:,}, most of them here")
     rows = set()
     for name, data in arrays.items():
@@ -116,7 +116,7 @@ def check_text(name, data, held):
         raise ValueError(f"{words}: a text of more than {MOST_TEXT//2**20} MB")
     if name == ECHO:
         try:
-            groups = Case.parse(content.decode("utf-8", "replace")).groups
+            groups = groups_of(content.decode("utf-8", "replace"))
         except ValueError as error:
             raise ValueError(f"{words}: {error}") from error
         if not groups:

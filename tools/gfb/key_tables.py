@@ -1,11 +1,9 @@
 """The keys of a case file as the manual has them: of `gfb --keys`, one table a group, narrow enough for a page of paper."""
 
-import re
-
+from gfb.program import table_rows
 from gfb.tool import stop
 
 MOST = 12  # letters of a default with blanks that still has the narrow column
-ROW = re.compile(r"(?<!\\)\|")
 PURPOSES = {  # what a group is for, and where more of it stands
     "scene": "What is computed.",
     "modes": "Natural modes of a strip or of its parts ([strip.md](strip.md)).",
@@ -39,15 +37,10 @@ PURPOSES = {  # what a group is for, and where more of it stands
 }
 
 
-def key_rows(printed):
-    """Group, key, kind, unit, default and meaning of each key that `gfb --keys` prints."""
-    return [[cell.strip() for cell in ROW.split(line)[1:-1]] for line in printed.strip().splitlines()[2:]]
-
-
 def key_tables(printed):
     """The manual's sections, in the program's order of groups."""
-    groups = {}
-    for group, *row in key_rows(printed):
+    groups: dict[str, list[list[str]]] = {}
+    for group, *row in table_rows(printed):
         groups.setdefault(group.strip("`&"), []).append(row)
     unknown = sorted(groups.keys() ^ PURPOSES.keys())
     if unknown:

@@ -3,12 +3,13 @@
 import pathlib
 import re
 import tempfile
+from typing import Any
 
 import h5py
 
 from gfb.case import Case
 from gfb.results import open_results, text_of
-from gfb.run import run_case
+from gfb.running import run_case
 
 NAMED = ("summary", "history", "provenance")  # groups whose names are those of `gfb --results`
 SAMPLE = {"bump_foil%height_deviation": 1.0e-7, "bump_foil%seed": 1, "sample%count": 2, "model%foil": "beam"}
@@ -17,7 +18,7 @@ TILTING = {"rotor%transverse_inertia": 1.0e-3, "rotor%bearing_distance": 0.12, "
 # Of any mesh the files hold the same.
 COARSE = {"mesh%circumferential_elements": 48, "mesh%axial_elements": 4}
 SWEPT = {"sweep%parameter": "speed_rpm", "sweep%values": (30000.0, 35000.0)}
-SCENES = (  # analysis of the template, what is changed in it
+SCENES: tuple[tuple[str, dict[str, Any]], ...] = (  # analysis of the template, what is changed in it
     ("equilibrium", COARSE), ("equilibrium", SAMPLE), ("strip", {}), ("modes", {}),
     ("linear_dynamics", {"rotor%mass": 0.1, **COARSE}), ("equilibrium", {**SWEPT, **COARSE}),
     ("transient", TILTING), ("periodic", {}))
@@ -25,7 +26,7 @@ SCENES = (  # analysis of the template, what is changed in it
 
 def layout(gfb):
     """{kind of file: {path in it: (unit, meaning, dimensions, parts of the bearing)}}."""
-    found = {}
+    found: dict[str, dict[str, tuple[str, str, int, set[str]]]] = {}
     with tempfile.TemporaryDirectory() as folder:
         for number, (analysis, changes) in enumerate(SCENES):
             case = Case.template(analysis, gfb)

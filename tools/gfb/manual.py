@@ -5,6 +5,7 @@
                    what the files hold         docs/manual/result_files.md: found in small runs
   gfb --help       options                     share/: man page, completion of bash, zsh and fish
                    exit statuses               docs/manual/results.md
+  gfb --results    names for type checkers     tools/gfb/result_names.py
 
   --html           all pages as HTML that reads offline   build/manual/VERSION/, and index.html above it, which leads to
                                                           all versions that are there
@@ -21,21 +22,12 @@ import sys
 
 from gfb.key_tables import key_tables
 from gfb.layout import layout_tables
-from gfb.run import call, find_gfb
+from gfb.program import call, find_gfb, printed_table
+from gfb.result_table import names_module
 from gfb.shell import pages
 from gfb.tool import ROOT, need_packages, stop
 
 TABLES = ("keys", "results")  # an option of gfb and a page each
-
-
-def printed_table(gfb, name):
-    """What the program prints."""
-    done = call([gfb, f"--{name}"])
-    if done.status != 0:
-        stop(f"{gfb} --{name} ended with status {done.status}:\n{done.complaint}", 3)
-    if not done.log.startswith("| "):
-        stop(f"{gfb} --{name}: no table; is it gfb?")
-    return done.log.strip() + "\n"
 
 
 def table_of(gfb, name):
@@ -61,6 +53,8 @@ def main():
                         help="folder of the pages; default: docs/manual of this checkout")
     parser.add_argument("--share", type=pathlib.Path, default=ROOT/"share", metavar="DIR",
                         help="folder of man page and completions; default: share of this checkout")
+    parser.add_argument("--names", type=pathlib.Path, default=ROOT/"tools/gfb/result_names.py", metavar="FILE",
+                        help="names of results for type checkers; default: tools/gfb/result_names.py of this checkout")
     parser.add_argument("--html", type=pathlib.Path, nargs="?", const=ROOT/"build/manual", metavar="DIR",
                         help="only make this version's HTML pages in DIR, by default build/manual; needs Sphinx, MyST and MathJax")
     options = parser.parse_args()
@@ -75,6 +69,8 @@ def main():
     if not renew(gfb, "result files", options.folder/"result_files.md", options.check, layout_tables(gfb)):
         differ.append("result files")
     differ += [path for path, content in made_of_help(gfb).items() if not renew_file(options.share/path, content, options.check)]
+    if not renew_file(options.names, names_module(printed_table(gfb, "results")), options.check):
+        differ.append(str(options.names))
     if differ:
         stop(f"these are not those of gfb: {', '.join(differ)}; call tools/manual")
     return 0
@@ -103,10 +99,11 @@ def statuses_of(gfb):
     """Table of the exit statuses that gfb --help names, with a comma between two of them."""
     done = call([gfb, "--help"])
     listed = re.search(r"^exit status: (.*)\Z", done.log, re.MULTILINE | re.DOTALL)
-    rows = listed and re.findall(r"(\d+(?: \+ N)?) (\D.*?)(?=, \d|$)", " ".join(re.sub(r"\(.*?\)", "", listed[1]).split()))
+    told = listed[1] if listed else ""
+    rows = re.findall(r"(\d+(?: \+ N)?) (\D.*?)(?=, \d|$)", " ".join(re.sub(r"\(.*?\)", "", told).split()))
     if done.status != 0 or not rows:
         stop(f"{gfb} --help: no exit statuses; is it gfb?")
-    examples = re.findall(r"(\d+) by ([^\s,)]+)", listed[1])
+    examples = re.findall(r"(\d+) by ([^\s,)]+)", told)
     more = "; " + ", ".join(f"{number}: by {signal}" for number, signal in examples) if examples else ""
     return "| exit status | meaning |\n| ---: | --- |\n" + "".join(
         f"| {status} | {meaning.strip()}{more if 'N' in status else ''} |\n" for status, meaning in rows)

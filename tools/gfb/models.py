@@ -16,8 +16,11 @@ from typing import Any
 import xarray
 
 from gfb.case import Case, CaseError
-from gfb.door import DONE, NOT_CONVERGED, WRONG_INPUT, RunError, find_member, reason_of, run_member, table
+from gfb.members import find_member, run_member
+from gfb.program import DONE, NOT_CONVERGED, WRONG_INPUT
 from gfb.reading import read
+from gfb.running import Result
+from gfb.studies import table
 from gfb.tables import markdown_table, readable_unit
 from gfb.tool import draw_into_files, parser_of, stop
 
@@ -123,23 +126,24 @@ def compare_models(case: Case, models: Sequence[str] | None = None, folder: str 
             reasons[model] = wrong
     stems = {model: folder/f"{name}_{model}" for model in models}
 
-    def answer(model: str) -> tuple[int, dict[str, Any], dict[str, str]]:
+    def answer(model: str) -> Result:
         if model in reasons:
-            return WRONG_INPUT, {}, {}
+            return Result(WRONG_INPUT, "", reasons[model], stems[model], {}, {})
         return find_member(cases[model], stems[model], gfb) or run_member(cases[model], stems[model], gfb)
 
     with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
         found = list(pool.map(answer, models))
-    for model, (status, _, _) in zip(models, found):
-        if status == NOT_CONVERGED:
-            reasons[model] = f"no answer, {reason_of(stems[model])}; the last state reached is in {stems[model].name}.unconverged.summary"
-    files = {model: folder/f"{name}_{model}.film.vtkhdf" for model, (status, _, _) in zip(models, found) if status == DONE}
-    return Models(table({"model": list(models)}, found), left_out, reasons, {model: file for model, file in files.items() if file.exists()})
+    for model, result in zip(models, found):
+        if result.status == NOT_CONVERGED:
+            reasons[model] = f"no answer, {result.reason}; the last state reached is in {result.stem.name}.summary"
+    files = {model: folder/f"{name}_{model}.film.vtkhdf" for model, result in zip(models, found) if result.converged}
+    return Models(table({"model": list(models)}, found, {}), left_out, reasons, {model: file for model, file in files.items() if file.exists()})
 
 
 def with_model(case: Case, model: str, gfb: str | os.PathLike[str] | None) -> tuple[Case, list[str], str]:
     """The case with a model, without what that has no use for; what it was; and what is still wrong, empty where nothing is."""
-    one, left_out = case.copy(), []
+    one = case.copy()
+    left_out: list[str] = []
     one["model%foil"] = model
     while True:
         try:
@@ -174,8 +178,6 @@ def main() -> int:
         models = compare_models(Case.read(options.case), folder=folder, name=name, processes=max(1, (os.cpu_count() or 2)//2), gfb=options.gfb)
     except CaseError as error:
         return stop(f"{options.case}: {error}")
-    except RunError as error:
-        return stop(str(error), error.status if error.status > 0 else 3)
     print(models.table())
     print(f"drawn: {models.plot(folder/f'{name}.models.png')}")
     return 0

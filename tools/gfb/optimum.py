@@ -15,12 +15,13 @@ from typing import Any, Union
 
 import numpy
 
-import gfb as package
 from gfb import bundle
 from gfb.case import Case, CaseError
-from gfb.door import DONE, ENDINGS, NOT_CONVERGED, WRONG_INPUT, find_member, run_member
+from gfb.members import find_member, run_member
+from gfb.program import WRONG_INPUT, find_program, unit_of_key
+from gfb.running import Result
 from gfb.tables import plain_table, readable, readable_unit
-from gfb.tool import say
+from gfb.tool import say, without
 
 Bounds = tuple["float | None", "float | None"]
 Quantity = Union[str, Callable[[Case], float]]  # a result, or a closed form
@@ -29,7 +30,6 @@ TOLERANCE = 1.0e-4         # of the objective over its value at the start, and o
 MOST_RUNS = 200
 STEP = 1.0e-5              # of a variable's range: central differences of closed forms
 ELEMENT = re.compile(r"(\w+%\w+)(?:\((\d+|:)\))?")
-UNIT = r"^&{}\n(?:(?!^/).)*?^  {} = [^!]*! \[(.*?)\]"  # of a group and a key, in a `.used.nml`
 LOAD = "operation%load"    # its magnitude is meant
 METHODS = ("bundle", "SLSQP")
 
@@ -48,11 +48,11 @@ class Variable:
         """Writes a value into a case."""
         for key, number in self.places:
             if number is not None:
-                values: list[Any] = list(listed(case, key))
+                values: list[Any] = list(case.listed(key))
                 values[number - 1] = value
                 case[key] = tuple(values)
             elif key == LOAD:
-                force = [float(part) for part in case[key]]  # type: ignore[union-attr, arg-type]
+                force = [float(part) for part in case[key]]
                 case[key] = tuple(part*value/math.hypot(*force) for part in force)
             else:
                 case[key] = value
@@ -150,7 +150,7 @@ def optimize(case: Case, *, minimize: Quantity | None = None, maximize: Quantity
     try:
         importlib.import_module("scipy")
     except ModuleNotFoundError as error:
-        raise package.missing("gfb.optimize", error) from None
+        raise without("gfb.optimize", error) from None
     if (minimize is None) == (maximize is None):
         raise CaseError("gfb.optimize: name one of minimize and maximize")
     if method not in METHODS:
@@ -171,7 +171,7 @@ def optimize(case: Case, *, minimize: Quantity | None = None, maximize: Quantity
         ending = f"after {most_runs} runs"
     best = goal.best(runner.runs)
     runner.keep_list(goal)
-    return Optimum(runner.case_at(best.variables), variable_rows(runner.variables, start, best, tolerance), result_rows(goal, start, best),
+    return Optimum(runner.case_at(best.variables), variable_rows(runner, best, tolerance), result_rows(goal, start, best),
                    finer_rows(runner, goal, start, best, finer), runner.runs, runner.computed, goal.worst(best) <= tolerance, ending)
 
 
@@ -307,12 +307,12 @@ class Runner:
     def run(self, place: numpy.ndarray) -> Run:
         """Runs a case, or finds it; a rule that it breaks is no answer, too."""
         plain = self.case_at(place)
-        status, summary, units, stem, words = self.member(self.asked(plain.copy()))
-        run = Run(place, {}, {}, units, stem, words)
-        if status != DONE:
+        result = self.member(self.asked(plain.copy()))
+        run = Run(place, {}, {}, result.units, result.stem, words_of(result))
+        if not result.converged:
             return run
         try:
-            told = {word(quantity): self.told(quantity, place, summary) for quantity in self.quantities}
+            told = {word(quantity): self.told(quantity, place, result.summary) for quantity in self.quantities}
         except KeyError as error:
             run.words = error.args[0]
             return run
@@ -320,8 +320,8 @@ class Runner:
         run.gradients = {name: gradient for name, (_, gradient) in told.items()}
         return run
 
-    def member(self, case: Case) -> tuple[int, dict[str, Any], dict[str, str], pathlib.Path, str]:
-        """Status, results, units and files of a case, which is named by its text, and why it has no answer."""
+    def member(self, case: Case) -> Result:
+        """What is left of a case, which is named by its text."""
         stem = self.folder/f"{self.name}_{hashlib.sha256(str(case).encode()).hexdigest()[:12]}"
         found = find_member(case, stem, self.gfb)
         if found is None:
@@ -329,8 +329,8 @@ class Runner:
             try:
                 found = run_member(case, stem, self.gfb, self.tell)
             except CaseError as error:
-                return WRONG_INPUT, {}, {}, stem, str(error)
-        return *found, stem, f"no answer, {stem.name}{ENDINGS[NOT_CONVERGED]}" if found[0] == NOT_CONVERGED else ""
+                return Result(WRONG_INPUT, "", str(error), stem, {}, {})
+        return found
 
     def told(self, quantity: Quantity, place: numpy.ndarray, summary: Mapping[str, Any]) -> tuple[float, numpy.ndarray]:
         """Value and gradient by the variables, which go from 0 to 1; KeyError, in words, where one of them is missing."""
@@ -371,6 +371,11 @@ def shown(value: float, unit: str, name: str) -> tuple[str, str]:
     return f"{number:.5g}", unit
 
 
+def words_of(result: Result) -> str:
+    """Why there is no answer; empty where there is one."""
+    return "" if result.converged else result.complaint if result.status == WRONG_INPUT else f"no answer, {result.stem.name}.summary"
+
+
 def word(quantity: Quantity) -> str:
     """What a result is called."""
     return quantity if isinstance(quantity, str) else quantity.__name__
@@ -389,7 +394,7 @@ def variables_of(case: Case, vary: Mapping[str, tuple[float, float]]) -> list[Va
             if key not in case:
                 raise CaseError(f"gfb.optimize: {key} must stand in the case")
         if any(number == ":" for _, number in keys):
-            counts = {len(listed(case, key)) for key, _ in keys}
+            counts = {len(case.listed(key)) for key, _ in keys}
             if len(counts) > 1:
                 raise CaseError(f"gfb.optimize: {name}: lists of {' and '.join(map(str, sorted(counts)))} values share none")
             for i in range(1, counts.pop() + 1):
@@ -407,13 +412,13 @@ def variable_of(case: Case, name: str, places: Sequence[tuple[str, int | None]],
     values: list[Any] = []
     for key, number in places:
         if number is None and key == LOAD:
-            values.append(math.hypot(*case[key]))  # type: ignore[misc, arg-type]
+            values.append(math.hypot(*case[key]))
         elif number is None:
             values.append(case[key])
-        elif not 1 <= number <= len(listed(case, key)):
-            raise CaseError(f"gfb.optimize: {key}({number}): the case has {len(listed(case, key))} values of it")
+        elif not 1 <= number <= len(case.listed(key)):
+            raise CaseError(f"gfb.optimize: {key}({number}): the case has {len(case.listed(key))} values of it")
         else:
-            values.append(listed(case, key)[number - 1])
+            values.append(case.listed(key)[number - 1])
     if not all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
         raise CaseError(f"gfb.optimize: {name}: must be a number; of a list say which, (3), or all, (:)")
     start = float(numpy.mean(values))
@@ -424,12 +429,6 @@ def variable_of(case: Case, name: str, places: Sequence[tuple[str, int | None]],
     return Variable(name, places, float(low), float(high), start)
 
 
-def listed(case: Case, key: str) -> tuple[Any, ...]:
-    """The values of a list, which has all of them."""
-    values = case[key]
-    return tuple(values) if isinstance(values, (tuple, list)) else (values,)
-
-
 # --- the answer ---
 
 def used_of(run: Run) -> pathlib.Path:
@@ -437,14 +436,12 @@ def used_of(run: Run) -> pathlib.Path:
     return run.stem.with_name(run.stem.name + ".used.nml")
 
 
-def variable_rows(variables: Sequence[Variable], start: Run, best: Run, tolerance: float) -> list[Row]:
+def variable_rows(runner: Runner, best: Run, tolerance: float) -> list[Row]:
     """Variables before and after, with the units that the program says."""
-    rows, used = [], used_of(start).read_text(encoding="utf-8")
-    for one, part in zip(variables, best.variables):
+    rows, gfb = [], find_program(runner.gfb)
+    for one, part in zip(runner.variables, best.variables):
         at = "lower" if part <= tolerance else "upper" if part >= 1.0 - tolerance else ""
-        unit = UNIT.format(*one.places[0][0].split("%"))
-        found = re.search(unit, used, re.DOTALL | re.MULTILINE)
-        rows.append(Row(one.name, found[1] if found else "", one.start, one.low + float(part)*(one.high - one.low), one.low, one.high, at))
+        rows.append(Row(one.name, unit_of_key(gfb, one.places[0][0]), one.start, one.low + float(part)*(one.high - one.low), one.low, one.high, at))
     return rows
 
 
@@ -474,8 +471,9 @@ def finer_rows(runner: Runner, goal: Goal, start: Run, best: Run, finer: Mapping
         case = runner.case_at(run.variables)
         for key, value in finer.items():
             case[key] = value
-        _, summary, units, stem, words = runner.member(case)
-        values = {word(one): summary.get(one, math.nan) if isinstance(one, str) else one(case) for one in runner.quantities}
-        ends.append(Run(run.variables, values, {}, units, stem, words))
-        runner.tell(f"finer mesh: {stem.name}{ENDINGS[DONE]}" if summary else f"finer mesh: {words}")
+        result = runner.member(case)
+        answer = result.summary if result.converged else {}
+        values = {word(one): answer.get(one, math.nan) if isinstance(one, str) else one(case) for one in runner.quantities}
+        ends.append(Run(run.variables, values, {}, result.units, result.stem, words_of(result)))
+        runner.tell(f"finer mesh: {words_of(result) or f'{result.stem.name}.summary'}")
     return result_rows(goal, *ends)

@@ -2,7 +2,6 @@
 
 import contextlib
 import csv
-import dataclasses
 import json
 import os
 import pathlib
@@ -10,10 +9,10 @@ import re
 import zlib
 
 import h5py
-import numpy
 
 from gfb import guard
 from gfb.files import Unfit, is_kept, opened, read_text
+from gfb.namelist import Places
 
 # Names of the summary that say what the answer cost, not what it is.
 COST = {"unknowns", "newton_iterations", "factorizations", "factorizations_finest", "wall_time", "peak_memory"}
@@ -145,68 +144,20 @@ def text_of(value):
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
+def used_keys(file):
+    """{(group, key): (its value as the echo of the case has it, whether it is a default)} of a case's HDF5 file."""
+    places = Places(text_of(file["scene/used"][()]))
+    return {key: (places.words(*key), key in places.defaults) for key in places.values}
+
+
 def attribute(data, name):
     """A text attribute."""
     return text_of(data.attrs[name])
 
 
-@dataclasses.dataclass
-class Answer:
-    """What a run left behind."""
-
-    status: int
-    log: str
-    complaint: str
-    stem: pathlib.Path  # of the result files, without ending
-    summary: dict       # name: number, or word
-    units: dict         # name: unit
-    wall: float = 0.0   # of the whole process [s]
-    cpu: float = 0.0    # user and system time [s]
-
-    def __getitem__(self, name):
-        return self.summary[name]
-
-    @property
-    def converged(self):
-        """Whether an answer was found."""
-        return self.status == 0
-
-    @property
-    def force(self):
-        """Of the film, and of solid contact, on the sleeve: x and y [N]."""
-        return self.vector("force")
-
-    @property
-    def torque(self):
-        """Of the film, and of solid contact, on the shaft: about x and y [N m]."""
-        return self.vector("torque")
-
-    @property
-    def eccentricity(self):
-        """Of the sleeve relative to the shaft: x and y [m]."""
-        return self.vector("eccentricity")
-
-    def vector(self, name):
-        """The components of a vector in the summary."""
-        return numpy.array([self[f"{name}_x"], self[f"{name}_y"]])
-
-    def physical(self):
-        """Numbers of the summary without those of the cost."""
-        return {name: value for name, value in self.summary.items()
-                if name not in COST and isinstance(value, float)}
-
-    def film(self):
-        """The film file's fields, as read_film gives them."""
-        return read_film(f"{self.stem}.film.vtkhdf")
-
-    def history(self):
-        """The columns of the history."""
-        return read_history(f"{self.stem}.h5")
-
-
 def read_petsc_log(path):
     """{stage: {event: (calls, seconds)}} of PETSc's log (-log_view :FILE:ascii_csv); "summary": the whole stage."""
-    stages = {}
+    stages: dict[str, dict[str, tuple[float, float]]] = {}
     with open(path, encoding="utf-8", newline="") as log:
         for stage, event, _, calls, seconds, *_ in csv.reader(log):
             if event == "Event Name":

@@ -1,35 +1,19 @@
 """Commands of an installed package, `gfb-plot`, `gfb-report`, `gfb-design`, `gfb-coefficients`, `gfb-models`, `gfb-studio`: those of tools/ with the same names."""
 
 import importlib
+from collections.abc import Callable
 
 from gfb.tool import run
 
 
-def plot():
-    """Draws results."""
-    return run(lambda: importlib.import_module("gfb.plot.main").main())
+def main_of(module: str) -> Callable[[], int]:
+    """The main of a module as a command, imported when it is called."""
+    return lambda: run(lambda: importlib.import_module(module).main())
 
 
-def report():
-    """Makes a page of results."""
-    return run(lambda: importlib.import_module("gfb.report.main").main())
-
-
-def design():
-    """The whole study of a bearing."""
-    return run(lambda: importlib.import_module("gfb.design_study").main())
-
-
-def coefficients():
-    """Writes stiffness and damping for other programs."""
-    return run(lambda: importlib.import_module("gfb.coefficients").main())
-
-
-def models():
-    """Models of a foil side by side."""
-    return run(lambda: importlib.import_module("gfb.models").main())
-
-
-def studio():
-    """A page in the browser."""
-    return run(lambda: importlib.import_module("gfb.studio.main").main())
+plot = main_of("gfb.plot.main")
+report = main_of("gfb.report.main")
+design = main_of("gfb.design_study")
+coefficients = main_of("gfb.coefficients")
+models = main_of("gfb.models")
+studio = main_of("gfb.studio.main")

@@ -81,13 +81,12 @@ def fit(frequency, impedance, poles=None, with_rate=False):
         raise CannotFit("stiffness and damping are not finite, or zero, or a frequency is not positive")
     if poles is not None and not 0 < poles <= most:
         raise CannotFit(f"{poles} poles: {len(frequency)} frequencies allow 1 to {most}")
-    best = None
-    for number in range(1, min(most, max(half, 1)) + 1) if poles is None else [poles]:
-        found = fit_with(frequency, impedance, number, with_rate)
-        if best is None or found.deviation < best.deviation:
-            best = found
+    numbers = range(1, min(most, max(half, 1)) + 1) if poles is None else [poles]
+    best = fit_with(frequency, impedance, numbers[0], with_rate)
+    for number in numbers[1:]:
         if best.deviation <= TOLERANCE:
             break
+        best = min(best, fit_with(frequency, impedance, number, with_rate), key=lambda found: found.deviation)
     if best.number <= half:
         told = fit_with(frequency[::2], impedance[::2], best.number, with_rate)
         best.between = deviation(told(1j*frequency[1::2]), impedance[1::2])
@@ -104,17 +103,16 @@ def fit_with(frequency, impedance, number, with_rate):
     values = values/numpy.abs(impedance[:, :2, :2]).max()
     weight = 1.0/numpy.abs(values).max(axis=1)
     poles = first_poles(s.imag, number)
-    best = None
+    fits = []
     for _ in range(PASSES):  # poles may wander between fits of the same quality: the best counts
         moved = relocated(s, values, weight, poles, with_rate)
         still = numpy.allclose(moved, poles, rtol=SETTLED, atol=0.0) if len(moved) == len(poles) else False
         poles = moved
         solution, misfit = residues_of(s, values, weight, poles, with_rate)
-        if best is None or misfit < best[0]:
-            best = misfit, poles, solution
+        fits.append((misfit, poles, solution))
         if still:
             break
-    _, poles, solution = best
+    _, poles, solution = min(fits, key=lambda one: one[0])
     scale = numpy.abs(impedance[:, :2, :2]).max()*numpy.multiply.outer(arm, arm)
     made = as_fit(poles*highest, solution.reshape(-1, 4, 4)*scale, highest, with_rate)
     made.deviation = deviation(made(1j*frequency), impedance)

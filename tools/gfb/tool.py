@@ -18,6 +18,14 @@ MEASURED = ROOT/"docs/measured"  # pages and pictures that tools write
 PACKAGES = ("numpy", "h5py", "matplotlib")
 
 
+class RunError(RuntimeError):
+    """A file, the machine or the program failed, or a run was stopped; its text is the program's."""
+
+    def __init__(self, words, status):
+        super().__init__(words)
+        self.status = status
+
+
 def say(words):
     """A message beside the tool's own output."""
     print(words, file=sys.stderr)
@@ -46,6 +54,8 @@ def run(main):
         return stop(missing_words(error))
     except MemoryError:
         return stop("there is not enough memory", 3)
+    except RunError as error:
+        return stop(str(error), error.status if error.status > 0 else 3)
     except OSError as error:
         if isinstance(error, Unfit):
             return stop(str(error))
@@ -55,6 +65,11 @@ def run(main):
 def missing_words(error):
     """What is to be done about a Python package that is not there."""
     return f"the Python package {error.name} is missing: pip install {error.name}, or apt-get install python3-{error.name}"
+
+
+def without(what, error):
+    """The error of a missing package in words that say what needs it, and where it is to be had."""
+    return ImportError(f"{what}: {missing_words(error)}", name=error.name)
 
 
 def draw_into_files():

@@ -14,7 +14,7 @@ import tempfile
 
 from gfb.build import version_of
 from gfb.results import read_json
-from gfb.run import run_case
+from gfb.running import run_case
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import MEASURED, ROOT, stop
 

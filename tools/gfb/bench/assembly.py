@@ -9,7 +9,7 @@ import math
 import tempfile
 
 from gfb.results import read_film
-from gfb.run import run_file, write_case
+from gfb.running import run_file, write_case
 
 MICRO = 1.0e6
 SHEET = {"youngs_modulus": 214.0e9, "poissons_ratio": 0.29}

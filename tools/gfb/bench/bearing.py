@@ -11,12 +11,14 @@ import statistics
 import sys
 import tempfile
 
+from gfb.bench.options import add_repetitions
+from gfb.namelist import Groups
 from gfb.results import read_history
-from gfb.run import run_logged, start_time
+from gfb.running import run_logged, start_time
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import stop
 
-CASE = {  # inputs/gu2020_bearing.nml
+CASE: Groups = {  # inputs/gu2020_bearing.nml
     "scene": {"analysis": "equilibrium"},
     "bearing": {"radius": 19.05e-3, "length": 38.1e-3, "clearance": 31.8e-6},
     "gas": {"viscosity": 1.95e-5, "ambient_pressure": 1.0135e5},
@@ -65,8 +67,7 @@ AIMS = {"cold": 25, "point": 5}  # factorizations
 
 def add_options(parser):
     """The command's own options."""
-    parser.add_argument("--repetitions", metavar="N", type=int, default=1,
-                        help="runs of each model; default: %(default)s")
+    add_repetitions(parser, "runs of each model", 1)
     parser.add_argument("--points", metavar="N", type=int, default=20, help="of the sweep; default: %(default)s")
     parser.add_argument("--models", metavar="N", type=int, default=len(MODELS) + len(OTHERS),
                         choices=range(1, len(MODELS) + len(OTHERS) + 1), help="only the first N of the models and other bearings")
@@ -74,8 +75,6 @@ def add_options(parser):
 
 def run(options):
     """Measures; returns the table and leaves it in Markdown and the picture."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     if options.points < 2:
         stop("--points: at least 2")
     measured = {model: [] for model in [*MODELS, *OTHERS][:options.models]}

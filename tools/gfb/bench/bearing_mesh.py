@@ -16,7 +16,7 @@ import tempfile
 import numpy
 
 from gfb.results import open_results, reading
-from gfb.run import run_case
+from gfb.running import run_case
 
 RADIUS, CLEARANCE, PRESSURE = 19.05e-3, 31.8e-6, 1.0135e5
 PITCH, BUMPS = 4.572e-3, 26

@@ -10,8 +10,10 @@ import re
 import tempfile
 import textwrap
 
-from gfb.case import Case, python_value
-from gfb.run import call, run_file
+from gfb.case import Case
+from gfb.namelist import python_value
+from gfb.program import call
+from gfb.running import run_file
 from gfb.tables import markdown_table, plain_table, readable_unit
 from gfb.tool import ROOT, stop
 

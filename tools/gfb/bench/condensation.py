@@ -12,7 +12,8 @@ import os
 import pathlib
 import statistics
 
-from gfb.run import call
+from gfb.bench.options import add_first, add_repetitions
+from gfb.program import call
 from gfb.tool import stop
 
 MESHES = ((12, 3, 50), (48, 12, 50), (24, 6, 100), (24, 6, 200))  # elements of an arc, of a flat, over the width
@@ -24,16 +25,12 @@ ONCE = ("set_up", "factor", "solve", "recovery")  # from the mesh to one answer
 
 def add_options(parser):
     """The command's own options."""
-    parser.add_argument("--repetitions", metavar="N", type=int, default=3,
-                        help="runs of each mesh; default: %(default)s")
-    parser.add_argument("--meshes", metavar="N", type=int, default=len(MESHES), choices=range(1, len(MESHES) + 1),
-                        help="only the first N of the meshes; the last one needs 5 GB")
+    add_repetitions(parser, "runs of each mesh", 3)
+    add_first(parser, "meshes", MESHES, "; the last one needs 5 GB")
 
 
 def run(options):
     """Measures; returns the table and leaves the picture."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     program = pathlib.Path(options.gfb).with_name("gfb_bench_condensation")
     if not os.access(program, os.X_OK):
         stop(f"there is no {program}: it is built together with gfb")

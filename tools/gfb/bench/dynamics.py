@@ -13,11 +13,12 @@ import tempfile
 import numpy
 
 from gfb.bench.bearing import CASE
+from gfb.bench.options import add_first, add_repetitions
 from gfb.build import version_of
 from gfb.results import open_results
-from gfb.run import run_case
+from gfb.running import run_case
 from gfb.tables import markdown_table, plain_table
-from gfb.tool import MEASURED, stop
+from gfb.tool import MEASURED
 
 DENSITY = {"density": 8200.0}  # of both foils [kg/m^3]
 MODELS = {  # foil, half_width, with its mass
@@ -50,17 +51,13 @@ difference of six of the 30 frequencies from factorizations at each, over the la
 
 def add_options(parser):
     """The command's own options."""
-    parser.add_argument("--repetitions", metavar="N", type=int, default=1,
-                        help="runs of each model; default: %(default)s")
-    parser.add_argument("--models", metavar="N", type=int, default=len(MODELS), choices=range(1, len(MODELS) + 1),
-                        help="only the first N of the models")
+    add_repetitions(parser, "runs of each model", 1)
+    add_first(parser, "models", MODELS)
     parser.add_argument("--docs", action="store_true", help="write the table of docs/measured/bench_dynamics.md")
 
 
 def run(options):
     """Measures; returns the table and leaves it in Markdown."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     with tempfile.TemporaryDirectory() as folder:
         rows = [measure(options, model, folder) for model in list(MODELS)[:options.models]]
     heads = ["vibrations", "unknowns", "equilibrium, CPU [s]"]

@@ -14,8 +14,9 @@ import signal
 import subprocess
 import tempfile
 
+from gfb.case import Case
+from gfb.program import ENVIRONMENT, launcher
 from gfb.results import SEAL_LENGTH, open_results, read_summary
-from gfb.run import ENVIRONMENT, MPIEXEC, case_text
 from gfb.tables import markdown_table
 from gfb.tool import ROOT
 
@@ -76,7 +77,7 @@ def write_cases(folder):
     for name, load in (("old", -20.0), ("new", -40.0)):
         place = pathlib.Path(folder)/name
         place.mkdir(exist_ok=True)
-        (place/"case.nml").write_text(case_text(CASE | {"operation": CASE["operation"] | {"load": (load, 0.0)}}),
+        (place/"case.nml").write_text(str(Case(CASE | {"operation": CASE["operation"] | {"load": (load, 0.0)}})),
                                       encoding="utf-8")
 
 
@@ -84,7 +85,7 @@ def call(gfb, case, folder, *words, environment=None, ranks=1):
     """Status and complaints of a run."""
     command = [gfb, "--quiet", *words, "--output", str(folder), str(case)]
     if ranks > 1:
-        command = [MPIEXEC, "-n", str(ranks), *command]
+        command = [launcher(gfb), "-n", str(ranks), *command]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace",
                           check=False, timeout=SECONDS,
                           env={**ENVIRONMENT, **os.environ, **(environment or {})})
@@ -223,7 +224,7 @@ class Faults:
         """Bits of a restart file that have changed."""
         sweep = CASE | {"sweep": {"parameter": "load", "values": tuple(10.0 + i % 20 for i in range(2000))}}
         case = self.folder/"sweep.nml"
-        case.write_text(case_text(sweep), encoding="utf-8")
+        case.write_text(str(Case(sweep)), encoding="utf-8")
         place = self.folder/"sweep"
         call(self.gfb, case, place, "--time-limit", "1")
         file = place/"sweep.restart.h5"

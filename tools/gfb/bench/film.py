@@ -14,7 +14,9 @@ import re
 import statistics
 import tempfile
 
-from gfb.run import run_case, start_time
+from gfb.bench.options import add_repetitions
+from gfb.namelist import Groups
+from gfb.running import run_case, start_time
 from gfb.tool import stop
 
 BILINEAR, BIQUADRATIC = 1, 2
@@ -28,7 +30,7 @@ TARGETS = (1.0e-2, 3.0e-3, 1.0e-3, 3.0e-4, 1.0e-4, 1.0e-5)
 PROFILED = (416, 120)
 WIDTHS = {"half": "yes", "whole": "no"}
 CLEARANCE = 31.8e-6
-CASE = {
+CASE: Groups = {
     "scene": {"analysis": "fixed_position"},
     "bearing": {"radius": 19.05e-3, "length": 38.1e-3, "clearance": CLEARANCE},
     "gas": {"viscosity": 1.95e-5, "ambient_pressure": 1.0135e5},
@@ -46,14 +48,11 @@ TRACE_LINE = re.compile(r"\[\d+\]\s+(\S+) Event (begin|end): (\S+)")
 
 def add_options(parser):
     """The command's own options."""
-    parser.add_argument("--repetitions", metavar="N", type=int, default=7,
-                        help="runs of each case; default: %(default)s")
+    add_repetitions(parser, "runs of each case", 7)
 
 
 def run(options):
     """Measures; returns the table and leaves the picture."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     with tempfile.TemporaryDirectory() as folder:
         start = start_time(options.gfb, options.repetitions)
         meshes = measure_meshes(options, folder)

@@ -8,7 +8,8 @@ for strips and bearings, full and reduced, with and without friction.
 import re
 import tempfile
 
-from gfb.run import call, run_logged, write_case
+from gfb.program import call
+from gfb.running import run_logged, write_case
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import stop
 

@@ -8,7 +8,7 @@ import pathlib
 
 from gfb.bench import (accuracy, assembly, bearing, bearing_mesh, bearings, condensation, dynamics, faults, film, linear_solvers, measured,
                        population, profile, scaling, strip, thermal, thrust, transient, work_precision)
-from gfb.run import find_gfb
+from gfb.program import find_gfb
 from gfb.tool import draw_into_files, stop
 
 COMMANDS = {"film": film, "accuracy": accuracy, "assembly": assembly, "condensation": condensation, "dynamics": dynamics, "faults": faults,
@@ -29,6 +29,8 @@ def main():
                          help="folder of table and picture; default: %(default)s")
         module.add_options(one)
     options = parser.parse_args()
+    if getattr(options, "repetitions", 1) < 1:
+        stop("--repetitions: at least 1")
     draw_into_files()  # not after minutes of computing
     options.gfb = find_gfb(options.gfb)
     try:

@@ -12,7 +12,7 @@ import tempfile
 
 import numpy
 
-from gfb.run import run_file, write_case
+from gfb.running import run_file, write_case
 from gfb.tables import markdown_table, plain_table
 
 PAGE = pathlib.Path(__file__).resolve().parents[3]/"docs/measured/comparisons.md"

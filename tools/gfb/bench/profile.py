@@ -11,15 +11,17 @@ import tempfile
 
 from gfb.bench import bearing as bench_bearing
 from gfb.bench import strip as bench_strip
+from gfb.bench.options import add_first, add_repetitions
 from gfb.bench.runs import PARTS, Bench
 from gfb.bench.scaling import free_memory, strip_case
 from gfb.bench.scaling_page import smallest
 from gfb.build import program_of, version_of
+from gfb.namelist import Groups
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import MEASURED, stop
 
-SHELLS = {**bench_bearing.CASE, "model": {"foil": "shell"}}
-JOBS = {  # quick ones first
+SHELLS: Groups = {**bench_bearing.CASE, "model": {"foil": "shell"}}
+JOBS: dict[str, Groups] = {  # quick ones first
     "bearing, 209 x 16": {**SHELLS, "mesh": {"axial_elements": 16}},
     "strip, case 1": {**bench_strip.CASE_1, "mesh": dict(zip(("arc_elements", "flat_elements", "axial_elements"),
                                                              bench_strip.PAPER)),
@@ -44,16 +46,13 @@ def add_options(parser):
     """The command's own options."""
     parser.add_argument("--before", metavar="PROGRAM", required=True,
                         help="the program to compare with, or a git revision, which is built in build/compare")
-    parser.add_argument("--repetitions", metavar="N", type=int, default=1, help="of each job; default: %(default)s")
-    parser.add_argument("--jobs", metavar="N", type=int, default=len(JOBS), choices=range(1, len(JOBS) + 1),
-                        help="only the first N of the jobs; the later ones need minutes")
+    add_repetitions(parser, "of each job", 1)
+    add_first(parser, "jobs", JOBS, "; the later ones need minutes")
     parser.add_argument("--docs", action="store_true", help="write the page to docs/measured")
 
 
 def run(options):
     """Measures; returns the tables and leaves the page."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     options.seconds, options.memory, options.reuse = LIMIT, 0.85*free_memory(), False
     programs = {"before": program_of(options.before, "--before"), "after": options.gfb}
     measured = {job: {which: [] for which in programs} for job in list(JOBS)[:options.jobs]}

@@ -12,8 +12,9 @@ import subprocess
 import time
 
 from gfb.build import kernel_of
+from gfb.program import ENVIRONMENT, command_of
 from gfb.results import read_json, read_summary
-from gfb.run import ENVIRONMENT, command_of, write_case
+from gfb.running import write_case
 from gfb.tool import ROOT, stop
 
 STORE = ROOT/"build/bench/scaling.json"

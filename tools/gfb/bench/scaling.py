@@ -17,6 +17,7 @@ import tempfile
 from gfb.bench import bearing as bench_bearing
 from gfb.bench import scaling_page as bench_scaling_page
 from gfb.bench import strip as bench_strip
+from gfb.bench.options import add_repetitions
 from gfb.bench.runs import Bench, Limits
 from gfb.tool import MEASURED, stop
 
@@ -41,8 +42,7 @@ def add_options(parser):
                         help="CPU time that a process may take; default: %(default)g")
     parser.add_argument("--memory", metavar="GIB", type=float,
                         help="memory that a run may take; default: 85 %% of what is free now")
-    parser.add_argument("--repetitions", metavar="N", type=int, default=3,
-                        help="of one and two ranks, the smallest counts; default: %(default)s")
+    add_repetitions(parser, "of one and two ranks, the smallest counts", 3)
     parser.add_argument("--reuse", action="store_true", help="go on with the rows of an earlier run")
     parser.add_argument("--docs", action="store_true", help="write the page and its pictures to docs/measured")
 
@@ -52,8 +52,6 @@ def run(options):
     parts = options.parts.split(",")
     if not set(parts) <= set(MEASURES):
         stop(f"--parts {options.parts}: {', '.join(MEASURES)}")
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     options.memory = 0.85*free_memory() if options.memory is None else options.memory*2.0**30
     options.largest = options.largest or (QUICK if options.quick else TARGETS[-1])
     if options.seconds <= 0.0 or options.memory <= 0.0 or options.largest < TARGETS[0]:

@@ -10,13 +10,15 @@ import pathlib
 import statistics
 import tempfile
 
+from gfb.bench.options import add_first, add_repetitions
+from gfb.namelist import Groups
 from gfb.results import read_history
-from gfb.run import run_logged, start_time
+from gfb.running import run_logged, start_time
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import stop
 
 # [Gu2020] table 1, load and friction as in inputs/gu2020_strip_case*.nml, but friction on both sides in case 1.
-CASE_1 = {
+CASE_1: Groups = {
     "scene": {"analysis": "strip"},
     "bump_foil": {"thickness": 0.102e-3, "youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "half_length": 1.778e-3,
                   "height": 0.508e-3, "pitch": 4.572e-3, "bumps": 10, "width": 38.1e-3, "fixed_edge": "leading",
@@ -24,7 +26,7 @@ CASE_1 = {
     "contact": {"friction_top": 0.1, "friction_sleeve": 0.1},
     "strip_load": {"kind": "crest_pressure", "distribution": "uniform", "pressure": 0.2e6},
 }
-CASE_2 = {
+CASE_2: Groups = {
     "scene": {"analysis": "strip"},
     "bump_foil": {"thickness": 0.127e-3, "youngs_modulus": 207.0e9, "poissons_ratio": 0.3, "half_length": 3.3e-3,
                   "height": 0.9e-3, "pitch": 7.0e-3, "bumps": 4, "width": 18.0e-3, "fixed_edge": "none"},
@@ -51,16 +53,12 @@ NEWTON = "SNESSolve"
 
 def add_options(parser):
     """The command's own options."""
-    parser.add_argument("--repetitions", metavar="N", type=int, default=3,
-                        help="runs of each model; default: %(default)s")
-    parser.add_argument("--scenes", metavar="N", type=int, default=len(SCENES), choices=range(1, len(SCENES) + 1),
-                        help="only the first N of the scenes; the later ones need minutes and 1.5 GB")
+    add_repetitions(parser, "runs of each model", 3)
+    add_first(parser, "scenes", SCENES, "; the later ones need minutes and 1.5 GB")
 
 
 def run(options):
     """Measures; returns the table and leaves it in Markdown and the picture."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     scenes = SCENES[:options.scenes]
     measured = [{model: [] for model in MODELS} for _ in scenes]
     with tempfile.TemporaryDirectory() as folder:

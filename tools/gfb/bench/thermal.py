@@ -11,8 +11,9 @@ import sys
 import tempfile
 
 from gfb.bench.bearing import CASE
+from gfb.bench.options import add_first, add_repetitions
 from gfb.build import version_of
-from gfb.run import run_file, start_time, write_case
+from gfb.running import run_file, start_time, write_case
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import MEASURED, stop
 
@@ -45,16 +46,13 @@ iterations, {factorizations} factorizations more, 2.5 times the time for rigid a
 
 def add_options(parser):
     """The command's own options."""
-    parser.add_argument("--repetitions", metavar="N", type=int, default=3, help="rounds of all models; default: %(default)s")
-    parser.add_argument("--models", metavar="N", type=int, default=len(MODELS), choices=range(1, len(MODELS) + 1),
-                        help="only the first N of the models")
+    add_repetitions(parser, "rounds of all models", 3)
+    add_first(parser, "models", MODELS)
     parser.add_argument("--docs", action="store_true", help="write the table of docs/measured/bench_thermal.md")
 
 
 def run(options):
     """Measures; returns the table and leaves it in Markdown."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     models = list(MODELS)[:options.models]
     rounds = {model: [] for model in models}
     with tempfile.TemporaryDirectory() as folder:

@@ -9,8 +9,9 @@ import statistics
 import sys
 import tempfile
 
+from gfb.bench.options import add_first, add_repetitions
 from gfb.build import version_of
-from gfb.run import run_file, start_time, write_case
+from gfb.running import run_file, start_time, write_case
 from gfb.tables import markdown_table, plain_table
 from gfb.tool import MEASURED, stop
 
@@ -54,16 +55,13 @@ A pad of shells at a held gap, 6 bumps, 32 x 16 biquadratic elements, and a jour
 
 def add_options(parser):
     """The command's own options."""
-    parser.add_argument("--repetitions", metavar="N", type=int, default=3, help="rounds of all meshes; default: %(default)s")
-    parser.add_argument("--meshes", metavar="N", type=int, default=len(MESHES), choices=range(1, len(MESHES) + 1),
-                        help="only the first N of the meshes")
+    add_repetitions(parser, "rounds of all meshes", 3)
+    add_first(parser, "meshes", MESHES)
     parser.add_argument("--docs", action="store_true", help="write docs/measured/bench_thrust.md")
 
 
 def run(options):
     """Measures; returns the tables and leaves them in Markdown."""
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     with tempfile.TemporaryDirectory() as folder:
         start = start_time(options.gfb)
         rows, counts = [], {}

@@ -9,8 +9,9 @@ import pathlib
 import tempfile
 
 from gfb.bench.bearing import CASE
+from gfb.bench.options import add_first
 from gfb.results import open_results
-from gfb.run import run_case
+from gfb.running import run_case
 from gfb.tables import markdown_table, plain_table
 
 PAGE = pathlib.Path(__file__).resolve().parents[3]/"docs/measured/transient.md"
@@ -51,8 +52,7 @@ start on shells: 15 factorizations instead of 37, 314 solutions instead of 52, 1
 def add_options(parser):
     """The command's own options."""
     parser.add_argument("--turns", metavar="N", type=int, help="of every run; default: two, shells one")
-    parser.add_argument("--models", metavar="N", type=int, default=len(MODELS), choices=range(1, len(MODELS) + 1),
-                        help="only the first N of the models")
+    add_first(parser, "models", MODELS)
     parser.add_argument("--docs", action="store_true", help="write docs/measured/transient.md")
 
 

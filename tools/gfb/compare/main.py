@@ -26,7 +26,7 @@ import time
 from gfb.build import BUILDS, kernel_of, program_of, version_of
 from gfb.compare.results import EXCLUDED, folder_differences
 from gfb.compare.runs import fingerprint, kept_run, run, tasks
-from gfb.run import find_gfb
+from gfb.program import find_gfb
 from gfb.tables import plain_table
 from gfb.tool import stop
 

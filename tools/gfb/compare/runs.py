@@ -11,7 +11,8 @@ import tempfile
 import time
 
 from gfb.bench.runs import last_words
-from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, call, case_text, command_of
+from gfb.case import Case
+from gfb.program import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, call, command_of
 from gfb.tool import ROOT
 
 sys.path[:0] = [str(ROOT/"tests"/name) for name in ("verification", "floating_point")]
@@ -47,7 +48,7 @@ class Ended:
 
 def tasks(small):
     """All scenes: the small ones, the inputs and their variants, coarser where it must be quick."""
-    made = [Task(scene.name, case_text(scene.case), tuple(scene.options), scene.restart) for scene in SCENES]
+    made = [Task(scene.name, str(Case(scene.case)), tuple(scene.options), scene.restart) for scene in SCENES]
     for name in (*sorted(path.stem for path in every_input.INPUTS.glob("*.nml")), *every_input.VARIANTS):
         text = (every_input.INPUTS/f"{name.partition(':')[0]}.nml").read_text(encoding="utf-8")
         changes = every_input.changes_of(name, not small)

@@ -122,7 +122,7 @@ def thinnest(result):
     return result.film.theta[int(numpy.argmin(midplane(result, "gap")))]
 
 
-AS_IT_IS = ("the file as it is", {})
+AS_IT_IS: tuple[str, dict[str, float]] = ("the file as it is", {})
 
 
 def open_variants():

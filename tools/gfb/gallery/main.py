@@ -13,7 +13,7 @@ draw_into_files()
 from gfb.gallery import contact, field, film, frame, orbit, position, strip, tilt, torque  # noqa: E402 (after the kind of picture)
 from gfb.gallery.page import Page, write_index  # noqa: E402
 from gfb.gallery.runs import Runs  # noqa: E402
-from gfb.run import find_gfb  # noqa: E402
+from gfb.program import find_gfb  # noqa: E402
 
 PAGES = {  # name: what makes the page; frame, contact: pictures of docs/manual/frame.md and equations.md
     "frame": frame.draw_frame,

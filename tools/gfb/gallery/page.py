@@ -6,7 +6,7 @@ import textwrap
 from matplotlib import pyplot
 
 from gfb.gallery.runs import AMBIGUOUS
-from gfb.run import namelist_value
+from gfb.namelist import namelist_value
 
 # What every page and table rests on; docs/manual/frame.md has it in full.
 BEARING_FRAME = (

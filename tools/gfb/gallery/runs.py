@@ -8,11 +8,11 @@ import json
 import pathlib
 import re
 
-
+from gfb.namelist import namelist_value
 from gfb.plot.film import draw_film, read_film
-from gfb.plot.strip import used_keys
-from gfb.results import open_results, read_history, reading, read_json, read_summary, text_of
-from gfb.run import DONE, NOT_CONVERGED, call, command_of, namelist_value, stem_of
+from gfb.program import DONE, NOT_CONVERGED, call, command_of, read_keys, stem_of, words_of
+from gfb.results import open_results, read_history, reading, read_json, read_summary, text_of, used_keys
+from gfb.studio.text import with_value
 from gfb.tool import ROOT, stop
 
 LONGEST = 70                # letters of a run's name; what is longer ends in a digest
@@ -104,13 +104,12 @@ class Runs:
     @functools.cached_property
     def keys(self):
         """{(group, key)} the program knows."""
-        said = call([self.gfb, "--keys"]).log
-        return set(re.findall(r"^\| `&(\w+)` \| `(\w+)` \|", said, re.MULTILINE))
+        return {(key.group, key.name) for key in read_keys(self.gfb).values()}
 
     @functools.cached_property
     def program(self):
         """What the program calls itself, with version and commit."""
-        return call([self.gfb, "--version"]).log.partition(",")[0].strip()
+        return words_of(self.gfb)
 
     @functools.cached_property
     def options(self):
@@ -173,14 +172,5 @@ def run_name(case, changes, options=()):
 def changed(text, changes):
     """A case file's text with other values; what is not in it yet is added."""
     for name, value in changes.items():
-        group, key = name.split(".")
-        line = f"  {key} = {namelist_value(value)}\n"
-        found = re.search(rf"^&{group}\b.*?^/", text, re.MULTILINE | re.DOTALL)
-        if found is None:
-            text += f"\n&{group}\n{line}/\n"
-            continue
-        inside, count = re.subn(rf"^\s*{key}\s*=.*\n", line.replace("\\", r"\\"), found[0], flags=re.MULTILINE)
-        if count == 0:
-            inside = found[0][:-1] + line + "/"
-        text = text[:found.start()] + inside + text[found.end():]
+        text = with_value(text, *name.split("."), namelist_value(value))
     return text

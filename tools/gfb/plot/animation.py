@@ -25,15 +25,15 @@ def draw(path, file, picture):
     film = path.with_name(f"{case}.film{steps.ENDING}")
     if film.exists():
         with open_results(film) as opened:
-            save(*of_film(film, opened), picture)
+            save(picture, *of_film(film, opened))
         return
     if transient.is_transient(file):
-        save(*of_orbit(path, file), picture)
+        save(picture, *of_orbit(path, file))
         return
     stop(f"{path}: nothing moves: there is no {film.name} and no orbit in it")
 
 
-def save(figure, frame, frames, pace, picture):
+def save(picture, figure, frame, frames, pace):
     """The file, by Pillow or ffmpeg."""
     if picture.suffix == ".mp4":
         if not animation.writers.is_available("ffmpeg"):

@@ -45,7 +45,7 @@ def draw(path, file, rows, words, name, keys):
                 draw_cuts(chart, z, keys)
                 draw_pads(chart, file[f"contact/{surface}/position_x"][...][node[:, 0]]
                           if f"contact/{surface}/position_x" in file else numpy.arange(len(node)))
-            if field != "state":
+            if field != "state" and look is not None:
                 draw_bar(figure, list(charts), **look, pad=0.01)
     stacked = sum(wide) > MOST_BESIDE
     for chart in axes.ravel():

@@ -5,7 +5,7 @@ from matplotlib import pyplot
 
 from gfb.plot.rotor import of_foil, rates, read_modes
 from gfb.plot.scene import case_name, number, read_scene
-from gfb.plot.strip import used_keys
+from gfb.results import used_keys
 from gfb.tool import stop
 
 KIND = "dynamics"
@@ -25,13 +25,14 @@ def draw(path, file, steps=()):
     if "dynamics" not in file:
         stop(f"{path}: no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
     group, title = file["dynamics"], case_name(path)
-    frequency, here, row = group["frequency"][...], ..., -1
+    frequency, row = group["frequency"][...], -1
+    here: object = ...
     if group["stiffness"].ndim == 4:
         points = len(frequency)
         if len(steps) > 1 or not all(0 < step <= points for step in steps):
             stop(f"{path}: one point of the sweep at a time, --step 1 to {points}")
         here = row = steps[0] - 1 if steps else points - 1
-        frequency, title = numpy.atleast_1d(frequency[here]), f"{title}: point {here + 1} of {points}"
+        frequency, title = numpy.atleast_1d(frequency[row]), f"{title}: point {row + 1} of {points}"
     elif steps:
         stop(f"{path}: not a sweep: stiffness and damping are drawn without --step")
     elif "summary" in file:

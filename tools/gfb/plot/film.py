@@ -104,9 +104,14 @@ def draw_film(path, file):
         lines.set_ylabel(f"{WORDS[name]} [{unit}]")
         lines.grid(alpha=0.3)
         legend_above(lines)
+    return with_labels(figure, axes, film, scene.title(path))
+
+
+def with_labels(figure, axes, film, title):
+    """The figure with the angle below its last row of charts, and its title."""
     for one in axes[-1]:
         label_theta(one, film)
-    figure.suptitle(scene.title(path), fontsize=11)
+    figure.suptitle(title, fontsize=11)
     return figure
 
 

@@ -5,10 +5,10 @@ from matplotlib import colors, pyplot
 
 from gfb.heat import HEATED, balance, temperatures
 from gfb.plot.colours import around_zero, round_numbers
-from gfb.plot.film import ROUND_OFF, draw_map, label_theta, legend_above, mark_load, read_film, readable
+from gfb.plot.film import ROUND_OFF, draw_map, legend_above, mark_load, read_film, readable, with_labels
 from gfb.plot.ring import draw_ring, is_ring
 from gfb.plot.scene import draw_edges, named, read_scene, scene_of
-from gfb.plot.strip import used_keys
+from gfb.results import used_keys
 from gfb.tool import stop
 
 KIND = "heat"
@@ -64,10 +64,7 @@ def draw_film(path, file):
         lines.set_ylabel(f"{FIELDS[name]} [{unit}]", fontsize=9)
         lines.grid(alpha=0.3)
         legend_above(lines)
-    for one in axes[-1]:
-        label_theta(one, film)
-    figure.suptitle(scene.title(path), fontsize=11)
-    return figure
+    return with_labels(figure, axes, film, scene.title(path))
 
 
 def scale_of(values):

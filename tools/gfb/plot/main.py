@@ -40,7 +40,6 @@ a film or a foil tells the picture load, speed, model and natural frequencies.
 import argparse
 import contextlib
 import pathlib
-import re
 
 import numpy
 
@@ -55,7 +54,7 @@ from gfb.plot import animation, dynamics, foil, heat, periodic, polar, ring, rol
 from gfb.plot.colours import round_numbers  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, step_words  # noqa: E402
-from gfb.results import BROKEN, Unreadable, attribute, open_results, reading, text_of  # noqa: E402
+from gfb.results import BROKEN, Unreadable, attribute, open_results, reading, used_keys  # noqa: E402
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
 USUAL_OF_TILT = ("torque_x", "torque_y", "minimum_gap", "maximum_pressure")
@@ -264,17 +263,15 @@ def list_columns(file):
 
 def swept(file):
     """Name of what the sweep changes, as the echo of the case tells it; None without a sweep."""
-    echo = text_of(file["scene/used"][()])
-    group = re.search(r"^&sweep$(.*?)^/$", echo, re.MULTILINE | re.DOTALL)
-    found = group and re.search(r"^\s*parameter = '(\w+)'", group[1], re.MULTILINE)
-    return found[1] if found else None
+    name = used_keys(file).get(("sweep", "parameter"), ("", True))[0].strip("'")
+    return name if name.isidentifier() else None  # one of several keys, or group%key, is in the history under another name
 
 
 def charts_of(history, columns, together):
     """Columns of every chart."""
     if not together:
         return [[name] for name in columns]
-    charted = {}
+    charted: dict[str, list[str]] = {}
     for name in columns:
         charted.setdefault(attribute(history[name], "unit"), []).append(name)
     return list(charted.values())
@@ -330,7 +327,8 @@ def draw_history(path, file, columns, together=False):
 
 def draw_table(path, file, columns):
     """Numbers of a history of one point, which makes no curve."""
-    numbers, largest = {name: readable(file["history"][name]) for name in columns}, {}
+    numbers = {name: readable(file["history"][name]) for name in columns}
+    largest: dict[str, float] = {}
     for values, unit in numbers.values():
         largest[unit] = max(largest.get(unit, 0.0), abs(values[0]))
     rows = [[named(name, ""), f"{values[0] if abs(values[0]) > ROUND_OFF*largest[unit] else 0.0:.5g}", "" if unit == "1" else unit]

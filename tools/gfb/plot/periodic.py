@@ -8,7 +8,7 @@ from matplotlib import pyplot
 from gfb.plot.clearance import crests_of, draw_limit, draw_load
 from gfb.plot.colours import round_numbers
 from gfb.plot.scene import case_name
-from gfb.plot.strip import used_keys
+from gfb.results import used_keys
 
 MICRO = 1.0e6
 DRAWN = 12  # orbits, at most

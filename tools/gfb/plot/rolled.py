@@ -14,8 +14,7 @@ from gfb.plot.colours import around_zero, draw_bar
 from gfb.plot.film import WORDS
 from gfb.plot.foil import round_scale
 from gfb.plot.scene import case_name, leading_edges, number, of_pad, pad_of, scene_of
-from gfb.plot.strip import used_keys
-from gfb.results import attribute, open_results
+from gfb.results import attribute, open_results, used_keys
 from gfb.tool import stop
 
 HEIGHT = 0.3     # of the radius: how high the picture makes the bumps

@@ -1,12 +1,10 @@
 """Rotors on bearings: frequency and damping of their modes over the speed, maps of the critical mass."""
 
-import re
-
 import numpy
 from matplotlib import colors, pyplot
 
 from gfb.plot.colours import draw_bar, levels_of
-from gfb.results import text_of
+from gfb.results import used_keys
 from gfb.tool import stop
 
 KINDS = ("campbell", "map")
@@ -29,10 +27,8 @@ def draw(paths, files, kind):
 
 def key_of(file, group, key):
     """Numbers of a key, as the echo of the case has them."""
-    echo = text_of(file["scene/used"][()])
-    found = re.search(rf"^&{group}$(.*?)^/$", echo, re.MULTILINE | re.DOTALL)
-    found = found and re.search(rf"^\s*{key} = ([^!\n]*)", found[1], re.MULTILINE)
-    return numpy.array([float(word) for word in found[1].replace(",", " ").split()]) if found else None
+    words, _ = used_keys(file).get((group, key), ("", True))
+    return numpy.array([float(word) for word in words.split(",")]) if words else None
 
 
 def along(file, name, points):
@@ -74,14 +70,16 @@ def rates(modes):
 
 def branches(rate, kind, shown):
     """Modes of neighbouring points that are one: of the same kind, and each the nearest of the other's point; lists of (point, mode)."""
-    found, open_ends = [], {}
+    found: list[list[tuple[int, int]]] = []
+    open_ends: dict[int, list[tuple[int, int]]] = {}
     for point in range(len(rate)):
         ends = {}
         for mode in numpy.flatnonzero(shown[point]):
             before = nearest(rate, kind, shown, point - 1, rate[point, mode], kind[point, mode]) if point else None
-            back = before is not None and nearest(rate, kind, shown, point, rate[point - 1, before], kind[point, mode]) == mode
-            ends[mode] = open_ends[before] if back else []
-            if not back:
+            if before is not None and nearest(rate, kind, shown, point, rate[point - 1, before], kind[point, mode]) == mode:
+                ends[mode] = open_ends[before]
+            else:
+                ends[mode] = []
                 found.append(ends[mode])
             ends[mode].append((point, mode))
         open_ends = ends

@@ -2,12 +2,12 @@
 
 import dataclasses
 import math
+from typing import Optional
 
 import numpy
 
 from gfb import steps
-from gfb.plot.strip import used_keys
-from gfb.results import BROKEN, open_results
+from gfb.results import BROKEN, open_results, used_keys
 
 MODELS = {"rigid": "rigid", "elastic_foundation": "elastic foundation", "beam": "beams", "shell": "shells", "plate": "plate on crests"}
 WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle": "angle of the load", "minimum_gap": "thinnest film",
@@ -27,8 +27,8 @@ class Scene:
     """Of the case file beside a grid file; empty where there is none, or none that can be read."""
 
     words: str = ""           # load, speed and model
-    load_angle: float = None  # theta at which the load presses the shaft [deg]
-    radius: float = None      # of the shaft [m]
+    load_angle: Optional[float] = None  # theta at which the load presses the shaft [deg]
+    radius: Optional[float] = None      # of the shaft [m]
     begins: tuple = (0.0,)    # theta where each pad begins [deg]
     frequencies: dict = dataclasses.field(default_factory=dict)  # mode_1: natural frequency [Hz]
 

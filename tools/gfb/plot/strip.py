@@ -1,13 +1,12 @@
 """Pictures of loaded bump strips: deflection per bump, force-displacement loops, contact states."""
 
 import os
-import re
 
 import numpy
 from matplotlib import pyplot
 
 from gfb.plot import contact
-from gfb.results import text_of
+from gfb.results import used_keys
 from gfb.tool import stop
 
 MICRO = 1.0e6
@@ -97,20 +96,6 @@ def common_name(paths):
 
 
 # --- what tells files apart ---
-
-def used_keys(file):
-    """{group key: (value, whether it is a default)} of the echo."""
-    echo = text_of(file["scene/used"][()])
-    keys, group = {}, ""
-    for line in re.sub(r",\s*\n\s+", ", ", echo).splitlines():  # long lists go on in the next line
-        found = re.match(r"&(\w+)", line)
-        if found:
-            group = found[1]
-        found = re.match(r"  (\w+) = ('(?:[^']|'')*'|[^!]*)", line)
-        if found:
-            keys[group, found[1]] = (found[2].strip(), line.endswith("(default)"))
-    return keys
-
 
 def labels(paths, files):
     """What a legend calls each file: the keys that differ and that some file sets, or the case's name."""

@@ -24,12 +24,12 @@ class Results:
 
     def key(self, name, default=None):
         """A number of the case; what is none, of a case that is not gfb's, is not there."""
-        value = self.case[name] if name in self.case else None
+        value = self.case.get(name)
         return float(value) if is_number(value) else default
 
     def pair(self, name):
         """Two numbers of the case; None where there are none."""
-        value = self.case[name] if name in self.case else None
+        value = self.case.get(name)
         return value if isinstance(value, tuple) and len(value) == 2 and all(map(is_number, value)) else None
 
     def words(self, name):
@@ -188,13 +188,14 @@ def sketch(summary, case):
     ring, outer = results.value("minimum_gap_radius") is not None, results.key("bearing%outer_radius")
     if ring and not outer:
         return None
-    drawn = {"pads": [], "shaft": not ring, "load": None, "thinnest": None, "ring": ring}
+    pads: list[str] = []
+    drawn = {"pads": pads, "shaft": not ring, "load": None, "thinnest": None, "ring": ring}
     inner = 85.0*(results.key("bearing%inner_radius") or 0.5)/outer if ring else 72.0
     for pad in range(count):
         begins = first + 2.0*math.pi*pad/count
         outside = [place(85.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS + 1)]
         inside = [place(inner if ring else 80.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS, -1, -1)]
-        drawn["pads"].append(" ".join(f"{x:.1f},{y:.1f}" for x, y in outside + inside))
+        pads.append(" ".join(f"{x:.1f},{y:.1f}" for x, y in outside + inside))
     if ring:
         at = 85.0*results.value("minimum_gap_radius")/outer
         drawn["thinnest"] = place(at, results.value("minimum_gap_angle") or 0.0)

@@ -15,9 +15,10 @@ import tempfile
 
 import jinja2
 
-from gfb.case import Case, program
+from gfb.case import Case
 from gfb.files import fresh
 from gfb.heat import HEATED, balance
+from gfb.program import call, find_program
 from gfb.report.glance import glance, sketch
 from gfb.report.sensitivities import sensitivities
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
@@ -143,10 +144,10 @@ def number(value):
 def needs_of(case_file, gfb):
     """What gfb --check says of the scene, on this machine."""
     try:
-        done = subprocess.run([program(gfb), "--check", "-"], input=case_file, capture_output=True, text=True, check=False, timeout=SECONDS)
+        done = call([find_program(gfb), "--check", "-"], SECONDS, text=case_file)
     except (FileNotFoundError, subprocess.TimeoutExpired) as error:
         return f"not known: {error}"
-    return (done.stdout + done.stderr).strip()
+    return (done.log + done.complaint).strip()
 
 
 # --- pictures ---
@@ -154,7 +155,7 @@ def needs_of(case_file, gfb):
 def thinnest_pad(summary):
     """The number of the pad with the thinnest film; 0 where the pads are not told apart."""
     gaps = {int(name.rpartition("_")[2]): one["value"] for name, one in summary.items() if re.fullmatch(r"minimum_gap_\d+", name)}
-    return min(gaps, key=gaps.get) if gaps else 0
+    return min(gaps, key=lambda pad: gaps[pad]) if gaps else 0
 
 
 def pictures_of(stem, points, shows, curve=False, pad=0):

@@ -13,7 +13,7 @@ WORDS = {"minimum_gap": "thinnest film", "axial_gap": "axial gap"}
 
 def sensitivities(summary, case, swept=None):
     """A block a result: its words, how far all tolerances move it, and bars; swept: values that keys have at this point of a sweep."""
-    found = {}
+    found: dict[str, dict[str, float]] = {}
     for one in summary.values():
         pair = re.fullmatch(r"derivative of (\w+) by (\S+)", one["meaning"])
         if pair and isinstance(one["value"], float) and math.isfinite(one["value"]):

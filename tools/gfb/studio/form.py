@@ -2,6 +2,7 @@
 
 from nicegui import ui
 
+from gfb.studio.checking import Message
 from gfb.tables import READABLE, TYPED
 
 GIVEN, NOT_GIVEN = "", "not in the case"
@@ -12,7 +13,8 @@ class Field:
     """One key."""
 
     def __init__(self, key, value, change):
-        self.key, self.value, self.change, self.messages = key, value, change, ()
+        self.key, self.value, self.change = key, value, change
+        self.messages: tuple[Message, ...] = ()
         if key.choices:
             self.input = ui.select(self.options(value), label=key.name, value=key.shown(value), on_change=self.typed)
         else:
@@ -80,7 +82,8 @@ class Group:
 
     def __init__(self, name, keys, change, leave_out):
         self.name, self.keys, self.change, self.leave_out = name, keys, change, leave_out
-        self.fields, self.values, self.messages, self.is_given = {}, {}, (), False
+        self.fields, self.values, self.is_given = {}, {}, False
+        self.messages: tuple[Message, ...] = ()
         self.box = ui.expansion(f"&{name}", caption=NOT_GIVEN, on_value_change=self.opened).classes("group").mark(f"group {name}")
         self.box.props["data-group"] = name
 

@@ -4,9 +4,8 @@ import dataclasses
 import decimal
 import re
 
+from gfb import program
 from gfb.case import Case, CaseError
-from gfb.key_tables import key_rows
-from gfb.manual import printed_table
 from gfb.tables import readable_unit, units_of
 
 WORD = re.compile(r"'([^']*)'")
@@ -15,15 +14,8 @@ DIGITS = 12  # of a number in a field: a change of unit and back shows the numbe
 
 
 @dataclasses.dataclass(frozen=True)
-class Key:
-    """A row of `gfb --keys`."""
-
-    group: str
-    name: str
-    kind: str
-    unit: str
-    default: str
-    meaning: str
+class Key(program.Key):
+    """A row of `gfb --keys`, and its value in a field."""
 
     @property
     def choices(self):
@@ -96,8 +88,7 @@ def quoted(words):
 
 def read_keys(gfb):
     """{group: {key: Key}} as the program lists them."""
-    found = {}
-    for group, name, *rest in key_rows(printed_table(gfb, "keys")):
-        key = Key(group.strip("`&"), name.strip("`"), *rest)
-        found.setdefault(key.group, {})[key.name] = key
+    found: dict[str, dict[str, Key]] = {}
+    for key in program.read_keys(gfb).values():
+        found.setdefault(key.group, {})[key.name] = Key(**vars(key))
     return found

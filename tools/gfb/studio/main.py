@@ -16,7 +16,7 @@ import secrets
 import socket
 import traceback
 
-from gfb.case import program
+from gfb.program import find_program
 from gfb.tool import draw_into_files, parser_of, stop
 
 HOST = "127.0.0.1"
@@ -38,7 +38,7 @@ def main():
     if not options.folder.is_dir():
         stop(f"{options.folder}: there is no such folder")
     try:
-        gfb = program(options.gfb)
+        gfb = find_program(options.gfb)
     except FileNotFoundError as error:
         stop(str(error))
     draw_into_files()

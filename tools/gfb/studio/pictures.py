@@ -118,7 +118,7 @@ def film(stem, name):
         pads = found["pad"].values[:, 0] if "pad" in found else numpy.zeros(len(theta))
     across = 1.0e3*found["radius" if ring else "z"].values
     looks = {"colorscale": "Viridis", "cmin": float(values.min()), "cmax": float(values.max())}
-    data = []
+    data: list[dict[str, object]] = []
     for pad in numpy.unique(pads):
         own = pads == pad
         angle, side = numpy.meshgrid(theta[own], across, indexing="ij")
@@ -145,7 +145,7 @@ def foils(stem):
     found = [one for one in surfaces if one.kind != "film"]
     places, away, taller, travel = drawn_larger(found, read_shaft(case, surfaces))
     far = max(float(one.max()) for one in away) or 1.0  # a free edge that lifts far would leave the rest without colour
-    data = []
+    data: list[dict[str, object]] = []
     for foil, place, off in zip(found, places, away):
         for numbers in foil.sheets():
             x, y, z = (1.0e3*place[numbers, axis] for axis in (2, 0, 1))
@@ -183,7 +183,7 @@ def lying(paths, field):
     scale = round_scale(TRAVEL*side/largest) if largest > 0.0 else 1.0
     is_mode = field != "displacement"
     words = field.replace("_", " ") if is_mode else "displacement [um]"
-    data = []
+    data: list[dict[str, object]] = []
     for part, points, moved in shapes:
         x, y, z = (1.0e3*(points + scale*moved)[:, :, axis] for axis in (0, 2, 1))
         if numpy.ptp(points[:, :, 1]) > numpy.ptp(points[:, :, 2]):  # a sector lies across the axis
@@ -218,7 +218,8 @@ def along_of(columns, used):
 
 def curves(runs, x, y):
     """A column of the history over another, of several results; runs: (name, {column: values}, {column: unit})."""
-    data, units = [], {}
+    data: list[dict[str, object]] = []
+    units: dict[str, str] = {}
     for name, columns, own in runs:
         if x in columns and y in columns:
             units |= own

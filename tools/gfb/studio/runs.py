@@ -12,7 +12,7 @@ import threading
 import time
 
 from gfb.files import Unfit, kept_within, read_text, write_inside
-from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, command_of, stem_of
+from gfb.program import DONE, ENVIRONMENT, NOT_CONVERGED, command_of, stem_of
 from gfb.tool import stop
 
 NAME = re.compile(r"\w[\w.-]{0,99}")

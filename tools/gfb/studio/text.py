@@ -1,32 +1,6 @@
 """Changes of single values in the text of a case file: all else in it, comments too, stays as it is."""
 
-from gfb.case import TOKENS
-
-
-class Places:
-    """Where groups and values stand in a text."""
-
-    def __init__(self, text):
-        self.values = {}  # (group, key): where the key begins, where its value begins, where it ends
-        self.groups = {}  # group: where it begins, where its '/' stands
-        words = [word for word in TOKENS.finditer(text) if not word[0].startswith("!")]
-        group = key = ""
-        for i, word in enumerate(words):
-            following = words[i + 1][0] if i + 1 < len(words) else ""
-            if i > 0 and words[i - 1][0] == "&":
-                group, key = word[0].lower(), ""
-                self.groups[group] = [words[i - 1].start(), len(text)]
-            elif word[0] == "/" and group:
-                self.groups[group][1] = word.start()
-                group = key = ""
-            elif group and following == "=":
-                key = word[0].lower()
-                self.values[group, key] = [word.start(), words[i + 1].end(), words[i + 1].end()]
-            elif group and key and word[0] not in "&=,":
-                place = self.values[group, key]
-                if place[1] == words[i - 1].end() and words[i - 1][0] == "=":
-                    place[1] = word.start()
-                place[2] = word.end()
+from gfb.namelist import Places
 
 
 def with_value(text, group, key, words):

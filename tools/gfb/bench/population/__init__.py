@@ -19,7 +19,7 @@ from gfb.bench.population.members import FOUNDATION, MODELS, SEED, SETS
 from gfb.bench.population.trial import BOUND, REFUSALS, second_way, shows_itself, try_case
 from gfb.bench.runs import keep_rows, kept_rows
 from gfb.build import version_of
-from gfb.run import write_case
+from gfb.running import write_case
 from gfb.tool import MEASURED, ROOT, stop
 
 STORE = ROOT/"build/bench/population.json"

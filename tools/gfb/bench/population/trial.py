@@ -8,8 +8,9 @@ import signal
 import subprocess
 import tempfile
 
+from gfb.program import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of
 from gfb.results import read_history, read_summary
-from gfb.run import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, command_of, write_case
+from gfb.running import write_case
 
 ANSWER, NO_REASON, GAVE_UP, BOUND, BROKEN, INVALID = "answer", "lost", "gave up", "CPU bound", "broke off", "wrong input"
 REFUSALS = {"touch-down": ("touches down",), "fold": ("ends in a fold",), "emptied": ("film is emptied",),

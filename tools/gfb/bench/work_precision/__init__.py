@@ -10,11 +10,12 @@ import hashlib
 import pathlib
 import tempfile
 
+from gfb.bench.options import add_repetitions
 from gfb.bench.runs import keep_rows, kept_rows
 from gfb.bench.work_precision import page as bench_work_precision_page
 from gfb.bench.work_precision.bearings import bearing_scene, tilted_scene
 from gfb.bench.work_precision.scenes import film_scene, key_of, loop_scene, strip_scene
-from gfb.run import run_case
+from gfb.running import run_case
 from gfb.tool import MEASURED, ROOT, stop
 
 STORE = ROOT/"build/bench/work-precision.json"
@@ -28,8 +29,7 @@ def add_options(parser):
     parser.add_argument("--quick", action="store_true", help="small meshes, two minutes; says little")
     parser.add_argument("--scenes", metavar="LIST", default=",".join(SCENES),
                         help="what to measure, of %(default)s; the page shows others as kept, with --reuse")
-    parser.add_argument("--repetitions", metavar="N", type=int, default=3,
-                        help=f"runs of what takes less than {SHORT:g} s, the fastest counts; default: %(default)s")
+    add_repetitions(parser, f"runs of what takes less than {SHORT:g} s, the fastest counts", 3)
     parser.add_argument("--reuse", action="store_true", help="go on with the runs of an earlier call")
     parser.add_argument("--docs", action="store_true", help="write the page and its pictures to docs/measured")
 
@@ -39,8 +39,6 @@ def run(options):
     asked = options.scenes.split(",")
     if not set(asked) <= set(SCENES):
         stop(f"--scenes {options.scenes}: {', '.join(SCENES)}")
-    if options.repetitions < 1:
-        stop("--repetitions: at least 1")
     store = Store(options.gfb, options.reuse)
     made = {name: make(options.quick) for name, make in SCENES.items()}
     with tempfile.TemporaryDirectory() as folder:

@@ -4,7 +4,7 @@ import dataclasses
 
 from gfb.bench import film as bench_film
 from gfb.bench import strip as bench_strip
-from gfb.run import case_text
+from gfb.case import Case
 
 CLEARANCE, AMBIENT = bench_film.CLEARANCE, bench_film.CASE["gas"]["ambient_pressure"]
 NAMES = {1: "bilinear", 2: "biquadratic"}
@@ -64,7 +64,7 @@ def merged(groups, **changes):
 
 def key_of(groups):
     """What a row is kept by."""
-    return case_text(groups)
+    return str(Case(groups))
 
 
 # --- rigid film ---
