@@ -179,6 +179,7 @@ venv=$project/build/venv
 if [[ -x $venv/bin/fortitude ]] && command -v findent >/dev/null; then
   export PATH=$normal_path
   ln -s -- "$venv" "$copy/build/venv"
+  [[ ! -d $project/build/mypy ]] || cp -R -- "$project/build/mypy" "$copy/build/" # what is known of the same files
   cat >"$copy/src/good.f90" <<'END'
 !> Good.
 module gfb_good
@@ -196,6 +197,7 @@ END
   printf 'a\tb\n' >"$copy/inputs/bad.nml"
   printf 'a \nsee /%s/me/file\n' home >"$copy/README.md"
   printf 'if True\n' >"$copy/tools/bad.py"
+  printf 'from gfb import run\n\nGAP: str = run("a.nml")["minimum_gap"]\n' >"$copy/tools/gfb/bad.py"
   # shellcheck disable=SC2016 # as it stands
   printf '#!/usr/bin/env bash\nls $1\n' >"$copy/tools/bad.sh"
   call "$copy/tools/check"
@@ -207,12 +209,17 @@ END
   expect 1 "check: a path of somebody's machine" 'a path of a machine'
   expect 1 'check: a Python file does not compile' 'a broken Python file'
   failures=6
-  if command -v shellcheck >/dev/null; then
-    expect 1 'check: shellcheck complains' 'a careless script'
+  if [[ -x $venv/bin/mypy ]]; then
+    expect 1 'bad.py:3: error' 'words where there is a number'
+    expect 1 'check: mypy complains' 'wrong types'
     failures=7
   fi
+  if command -v shellcheck >/dev/null; then
+    expect 1 'check: shellcheck complains' 'a careless script'
+    failures=$((failures + 1))
+  fi
   expect 1 "check: $failures of its checks failed" 'nothing else'
-  rm -- "$copy/src/"{indent,habit,line}.f90 "$copy/inputs/bad.nml" "$copy/README.md" "$copy/tools/bad."{py,sh}
+  rm -- "$copy/src/"{indent,habit,line}.f90 "$copy/inputs/bad.nml" "$copy/README.md" "$copy/tools/bad."{py,sh} "$copy/tools/gfb/bad.py"
   sed 's/^  private/   private  /' "$copy/src/good.f90" >"$copy/src/bad.f90"
   call "$copy/tools/check" --fix
   expect 0 'indented src/bad.f90' '--fix repairs indent and blanks'
@@ -223,6 +230,7 @@ END
   PATH=$scratch/bin:$normal_path PIP_NO_INDEX=1 PIP_FIND_LINKS='' call "$copy/tools/test" -L unit
   expect 3 'pip failed: ' 'pip fails'
   expect 3 'habits of Fortran are not looked at' 'without fortitude the rest is checked'
+  expect 3 'types of Python are not looked at' 'and without mypy'
   expect 3 'are in order' 'and found in order'
   expect 3 '-LE ^(hard|release|long)$ -L unit' 'and the tests run, without those of other labels'
   expect 3 'left out, as pip failed' 'and what was left out stands at the end'
