@@ -4,7 +4,7 @@ module gfb_curved_bump
   implicit none (type, external)
   private
   public :: curved_bump_stiffness, bump_radius, bump_half_angle, bending_stiffness, &
-            walowit_anno_stiffness
+            walowit_anno_stiffness, known_stiffness
 
 contains
 
@@ -85,4 +85,25 @@ contains
     stiffness = youngs_modulus*thickness**3/ &
       (2.0_wp*(1.0_wp - poissons_ratio**2)*half_length**3*pitch)
   end function walowit_anno_stiffness
+
+  !> The same where numbers may be missing or out of all proportion: it is 0 then.
+  elemental function known_stiffness(youngs_modulus, poissons_ratio, thickness, half_length, &
+                                     pitch) result(stiffness)
+    real(wp), intent(in) :: youngs_modulus !! E; 0: not known [Pa]
+    real(wp), intent(in) :: poissons_ratio !! nu [1]
+    real(wp), intent(in) :: thickness      !! t, of the bump foil; 0: not known [m]
+    real(wp), intent(in) :: half_length    !! l, half the chord of the arc; 0: not known [m]
+    real(wp), intent(in) :: pitch          !! s, from bump to bump; 0: not known [m]
+    real(wp) :: stiffness                  !! pressure over deflection [N/m3]
+    real(wp), parameter :: largest_power = 60.0_wp !! of ten; no foil comes near, and products hold
+    real(wp) :: power
+
+    stiffness = 0.0_wp
+    if (.not. min(youngs_modulus, thickness) > 0.0_wp) return
+    if (.not. min(half_length, pitch) > 0.0_wp) return
+    power = log10(youngs_modulus) + 3.0_wp*log10(thickness/half_length) - log10(pitch)
+    if (abs(power) > largest_power) return
+    stiffness = walowit_anno_stiffness(youngs_modulus, poissons_ratio, thickness, half_length, &
+                                       pitch)
+  end function known_stiffness
 end module gfb_curved_bump

@@ -2,7 +2,7 @@
 module gfb_strip_load_case
   use gfb_kinds, only: wp
   use gfb_foil_cases, only: bump_foil_case_type, solid_width
-  use gfb_curved_bump, only: walowit_anno_stiffness
+  use gfb_curved_bump, only: known_stiffness
   use gfb_case_keys, only: case_keys_type, longest_list, unless, any_value, from_to, positive
   use gfb_scene_case, only: analysis_strip, misplaced_group
   use gfb_text, only: text
@@ -152,19 +152,8 @@ contains
   !> Stiffness per area of the bumps after Walowit and Anno [N/m^3]; 0 where it is not known.
   elemental real(wp) function bump_stiffness(foil) result(stiffness)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    real(wp), parameter :: largest_power = 60.0_wp !! of ten; no foil comes near, and products hold
-    real(wp) :: power
-
-    stiffness = 0.0_wp
-    if (.not. min(foil%youngs_modulus, foil%thickness%value) > 0.0_wp) return
-    if (.not. min(foil%half_length%value, foil%pitch%value) > 0.0_wp) return
-    associate (thickness => foil%thickness%value, half_length => foil%half_length%value, &
-               pitch => foil%pitch%value)
-      power = log10(foil%youngs_modulus) + 3.0_wp*log10(thickness/half_length) - log10(pitch)
-      if (abs(power) > largest_power) return
-      stiffness = walowit_anno_stiffness(foil%youngs_modulus, foil%poissons_ratio, thickness, &
-                                         half_length, pitch)
-    end associate
+    stiffness = known_stiffness(foil%youngs_modulus, foil%poissons_ratio, foil%thickness%value, &
+                                foil%half_length%value, foil%pitch%value)
   end function bump_stiffness
 
   !> About how far the whole load presses the bumps down [m]; a small part of their height where
