@@ -6,7 +6,7 @@ module gfb_gap_shapes
   use gfb_gap_shape, only: gap_shape_item_type, add_shape
   implicit none (type, external)
   private
-  public :: find_shapes
+  public :: find_shapes, peak_of
 
 contains
 
@@ -24,4 +24,15 @@ contains
       call add_shape('ramp', ramp_of(bearing, leading_edge, facing), list)
     end if
   end subroutine find_shapes
+
+  !> What shapes take off the gap at most: all their peaks together [m].
+  pure real(wp) function peak_of(list) result(peak)
+    type(gap_shape_item_type), intent(in) :: list(:) !! shapes
+    integer :: i
+
+    peak = 0.0_wp
+    do i = 1, size(list)
+      peak = peak + list(i)%shape%peak()
+    end do
+  end function peak_of
 end module gfb_gap_shapes

@@ -12,6 +12,8 @@ module gfb_start_position
   use gfb_film_surface, only: translations
   use gfb_solid_contact, only: contact_pressure
   use gfb_gap_part, only: gap_part_type
+  use gfb_gap_shape, only: gap_shape_item_type
+  use gfb_gap_shapes, only: find_shapes, peak_of
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_room, only: undeflected_gap
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
@@ -146,12 +148,14 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(operating_point_type), intent(in) :: target !! the operating point asked for
     real(wp), intent(in) :: eccentricity !! where none is given, over the free clearance [1]
+    type(gap_shape_item_type), allocatable :: shape(:)
     real(wp) :: direction, free
 
     bearing%point%place(:2) = target%place(:2)
     if (.not. bearing%floats) return
     if (.not. scene%operation%eccentricity_given) then
-      free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(scene%bore%profile%peak(), 0.0_wp) &
+      call find_shapes(scene%bearing, scene%bore, scene%bearing%leading_edge_angle, 1.0_wp, shape)
+      free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(peak_of(shape), 0.0_wp) &
         - bearing%pad(1)%film%interference() - 0.5_wp*scene%bearing%length*norm2(target%place(4:5))
       direction = start_attitude
       if (norm2(target%load(:2)) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))

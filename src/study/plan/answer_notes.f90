@@ -12,7 +12,7 @@ module gfb_answer_notes
   use gfb_aligned_mesh, only: kinks_inside
   use gfb_bearing_case, only: pad_turn
   use gfb_gap_shape, only: gap_shape_item_type, kinks_of
-  use gfb_gap_shapes, only: find_shapes
+  use gfb_gap_shapes, only: find_shapes, peak_of
   use gfb_film_mesh, only: film_mesh_type
   use gfb_gas_law, only: gas_law_type, density_table
   use gfb_scene, only: scene_type
@@ -162,15 +162,12 @@ contains
     type(gap_shape_item_type), allocatable :: shape(:)
     integer :: on_pad, inside, i
 
-    associate (profile => scene%bore%profile)
-      words = 'bore             up to '//text(profile%peak()*1.0e6_wp, 4)// &
-              ' um over the '// &
-              trim(merge('pads'' plane', 'circle     ', scene%bearing%is_thrust()))// &
-              ', '//text(profile%peak()/scene%bearing%clearance, 3)//' of the '// &
-              trim(merge('gap''s size', 'clearance ', scene%bearing%is_thrust()))
-    end associate
     associate (bearing => scene%bearing)
       call find_shapes(bearing, scene%bore, bearing%leading_edge_angle, 1.0_wp, shape)
+      words = 'bore             up to '//text(peak_of(shape)*1.0e6_wp, 4)//' um over the '// &
+              trim(merge('pads'' plane', 'circle     ', bearing%is_thrust()))//', '// &
+              text(peak_of(shape)/bearing%clearance, 3)//' of the '// &
+              trim(merge('gap''s size', 'clearance ', bearing%is_thrust()))
       call kinks_inside(mesh, kinks_of(shape, 0.0_wp, pad_turn(bearing, &
                                                                [(i, i=1, bearing%pads)])), &
                         on_pad, inside)
