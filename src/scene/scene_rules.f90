@@ -252,8 +252,6 @@ contains
       words = 'a search for a limit'
     else if (scene%model%coupling == coupling_partitioned) then
       words = "coupling = 'partitioned' in &model"
-    else if (scene%sensitivity%present) then
-      words = '&sensitivity'
     else if (scene%solver%stability) then
       words = 'stability in &solver'
     end if

@@ -130,6 +130,22 @@ def check_vibrations(checks, folder):
             checks.below(f"vibrations, {words}: {name}", (other[name] - base[name])/size, 1.0e-8)
 
 
+def check_derivatives(checks, folder):
+    """Derivatives of an answer's numbers by keys, by iterations of the transposed equations and by its factors."""
+    names = ("minimum_gap", "friction_torque", "maximum_pressure", "maximum_top_foil_stress")
+    groups = with_keys(foils("shell", 0.1), model={"reduction": "none"},
+                       mesh={"circumferential_elements": 26, "axial_elements": 2, "flat_elements": 1},
+                       sensitivity={"quantity": names, "parameters": ("gas%viscosity", "bump_foil%thickness")})
+    base = gfb_solve(folder, "derived", groups)
+    iterated = with_keys(groups, solver={"linear_solver": "iterative"})
+    for words, other in (("half the width", gfb_solve(folder, "iterated", iterated)),
+                         ("whole width, 2 ranks", gfb_solve(folder, "whole", with_keys(iterated, model={"half_width": "no"}), 2))):
+        slopes = [name for name in base.physical() if name.startswith("d_")]
+        checks.that(f"derivatives, {words}: all are there", len(slopes) == 2*len(names) and set(slopes) <= set(other.physical()))
+        for name in slopes:
+            checks.below(f"derivatives, {words}: {name}", other[name]/base[name] - 1.0, 1.0e-8)
+
+
 def compare(checks, words, base, other, given):
     """Numbers of an answer by iterations, which sufficed, and by factors."""
     values, others = base.physical(), other.physical()
@@ -223,6 +239,7 @@ def main():
         check_small(checks, folder)
         check_hot(checks, folder)
         check_vibrations(checks, folder)
+        check_derivatives(checks, folder)
         check_growth(checks, folder)
         check_failures(checks, folder)
         check_estimates(checks, folder)

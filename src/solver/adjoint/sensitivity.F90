@@ -166,7 +166,7 @@ contains
       PetscCallA(VecDuplicate(bearing%state, adjoint(k), ierr))
       PetscCallA(VecSet(right, 0.0_wp, ierr))
       call bearing%exchange%add(matmul(gradient, combined(k, :size(gradient, 2)))*bearing%unknown_scale, right)
-      call solve_corrected(newton, tangent, right, adjoint(k), .true., solved(k))
+      call solve_corrected(newton, bearing, tangent, right, adjoint(k), .true., solved(k))
     end do
     PetscCallA(VecDestroy(right, ierr))
   end subroutine find_adjoints

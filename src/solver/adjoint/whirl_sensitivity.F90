@@ -262,7 +262,7 @@ contains
     PetscCallA(VecDuplicate(bearing%state, of_answer, ierr))
     call differ_by_key(scene, parameter, bearing, form, of_residual, change, problem, at)
     if (problem == '') then
-      call solve_corrected(newton, tangent, of_residual, of_answer, .false., solved)
+      call solve_corrected(newton, bearing, tangent, of_residual, of_answer, .false., solved)
       if (.not. solved) problem = 'the linearised equations were not solved'
     end if
     if (problem == '') then
