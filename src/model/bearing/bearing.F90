@@ -2,7 +2,7 @@
 !> Pads and shaft: their unknowns, and what a state of them says. Their equations are another module's.
 !>
 !> Local unknowns of a rank, in this order: of each pad the pressures of its film nodes and the foil's
-!> unknowns, and those of the shaft's coordinates that are unknowns: \( (e_x, e_y) \) where it floats, with its tilts
+!> unknowns, fields and scalars of further blocks of equations, and those of the shaft's coordinates that are unknowns: \( (e_x, e_y) \) where it floats, with its tilts
 !> where a rotor has two bearings. Newton sees them divided by their sizes (ambient pressure, clearance), and the
 !> equations by the sizes of their terms.
 !>
@@ -12,7 +12,7 @@
 !> sign the line is another one, open or closed. Friction keeps its linearisation, but for what
 !> follows the normal force.
 module gfb_bearing
-  use petscvec
+  use petscmat
   use gfb_kinds, only: wp
   use gfb_contact_law, only: contact_law_type, friction_force
   use gfb_contact_point, only: add_at_contact
@@ -26,10 +26,10 @@ module gfb_bearing
   use gfb_blocks, only: blocks_type, block_type, create_blocks
   use gfb_local_exchange, only: local_exchange_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_heat, only: film_heat_type, number_heat, growth_of, moduli_at, heat_scale, heat_sizes
+  use gfb_bearing_heat, only: film_heat_type, growth_of, moduli_at
   implicit none (type)
   private
-  public :: begin_contact_path, next_contact, switch_contact, number_unknowns, scale_unknowns
+  public :: begin_contact_path, next_contact, switch_contact, number_unknowns, scale_unknowns, places_of
 
   integer, parameter :: normal = 3 !! component of an approach
   !> Share of a step at which no contact changes; far below `huge`, for a step that diverges is longer than a metre [1]
@@ -38,10 +38,40 @@ module gfb_bearing
   !> A state of a bearing, as its equations ask for it.
   type, public :: bearing_state_type
     type(operating_point_type) :: point  !! with the shaft's position
+    type(operating_point_type) :: asked  !! as it is asked for: with the place where a shaft is held
     real(wp), allocatable :: unknown(:)  !! local, in SI
     real(wp), allocatable :: gap(:)      !! at this rank's nodes of all films [m]
     logical :: fixed = .false.           !! the shaft's equations are its place's
   end type bearing_state_type
+
+  !> A block of a bearing's equations beside those of its pads: unknowns of its own, what it adds to the residual and to the matrix.
+  !>
+  !> Whoever numbers, scales, assembles, orders, saves or transfers a bearing goes through its list of blocks. The unknowns are
+  !> fields at the nodes of all films, or scalars of all pads together, which the last rank owns; what a block leaves out it does
+  !> not have. None of its procedures is a function: gfortran 12 frees a pointer to one whose result is allocatable.
+  type, public :: bearing_block_type
+    character(len=8) :: name = ''
+    integer :: fields = 0              !! unknowns of each film node
+    integer :: scalars = 0             !! unknowns of all pads together
+    real(wp) :: unknown_size = 1.0_wp  !! of each unknown, in SI
+    real(wp) :: start = 0.0_wp         !! value of each where nothing is known of it, in SI
+    logical :: positive = .false.      !! no state has others
+    logical :: has_film = .false.      !! its equations are those of the films, too: pads have no term for them
+    integer, allocatable :: first(:)   !! (pads) local unknowns of the bearing before the fields of each pad
+    integer :: first_scalar = 0        !! the same of the scalars
+    procedure(take_numbers), pointer, nopass :: take_numbers => null()
+    procedure(equation_sizes), pointer, nopass :: equation_sizes => null()
+    procedure(residual_block), pointer, nopass :: add_residual => null()
+    procedure(matrix_block), pointer, nopass :: add_jacobian => null()
+    procedure(scalar_groups), pointer, nopass :: groups => null()
+  end type bearing_block_type
+
+  !> Scalars of a block that belong together: one each row of the film's mesh, or one for whatever else.
+  type, public :: scalar_group_type
+    integer :: first = 0        !! local unknowns of the bearing before them
+    integer :: count = 0
+    logical :: is_row = .false. !! they stand along the axis, in the order of the rows
+  end type scalar_group_type
 
   !> The bearing at one operating point.
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
@@ -53,16 +83,21 @@ module gfb_bearing
     type(pad_type), allocatable :: pad(:)  !! equal ones
     type(film_heat_type) :: heat           !! of film, foils and walls, where it is asked for
     logical :: sparse = .false.            !! factors of the equations without heat stay sparse
-    type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad, heat; the shaft's are scalars
+    type(bearing_block_type), allocatable :: block(:) !! of equations beside those of the pads
+    type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad, fields, scalars; the shaft's are the border
     integer :: unknowns = 0                !! of the bearing, on all ranks
-    integer :: first_shaft = 0             !! local unknowns before the shaft's
+    integer :: first_scalar = 0            !! local unknowns before the scalars of all blocks
+    integer :: first_shaft = 0             !! the same of the shaft's, which are the last ones
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
     real(wp), allocatable :: unknown_scale(:) !! of the local unknowns, in SI
     type(local_exchange_type) :: exchange  !! between local unknowns and vectors
+    type(tVec) :: left, right              !! work space: sizes of equations, inverted; sizes of unknowns
     integer, private :: changing(contact_name) = 0 !! contact that changes next: its rank from 1, its pad, its number there
   contains
     procedure :: get_unknowns, set_unknowns
     procedure :: add_up => add_up_unknowns
+    procedure :: summed => summed_values
+    procedure :: field => block_field
     procedure :: local_size, film_nodes, film_temperature, film_pressure, put_pressure, film_force, is_meshed
     procedure :: has_contacts
     procedure :: gap => bearing_gap
@@ -76,6 +111,51 @@ module gfb_bearing
     procedure :: next_change => next_bearing_change
     procedure :: cross_change => cross_bearing_change
   end type bearing_type
+
+  abstract interface
+    !> The bearing's unknowns are numbered: puts where a block's own stand where its formulas ask.
+    pure subroutine take_numbers(bearing, block)
+      import :: bearing_type, bearing_block_type
+      implicit none (type, external)
+      class(bearing_type), intent(inout) :: bearing
+      type(bearing_block_type), intent(in) :: block !! with its numbers
+    end subroutine take_numbers
+
+    !> Sizes of a block's local equations, fields before scalars, in SI.
+    pure subroutine equation_sizes(bearing, scale)
+      import :: bearing_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      real(wp), intent(out) :: scale(:)
+    end subroutine equation_sizes
+
+    !> Adds to the residual; all films are open.
+    subroutine residual_block(bearing, state, residual)
+      import :: bearing_type, bearing_state_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      type(bearing_state_type), intent(in) :: state
+      real(wp), intent(inout) :: residual(:) !! of the local equations [SI]
+    end subroutine residual_block
+
+    !> Adds to the matrix, by the bearing's local numbers.
+    subroutine matrix_block(bearing, state, room, matrix)
+      import :: bearing_type, bearing_state_type, tMat
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      type(bearing_state_type), intent(in) :: state
+      logical, intent(in) :: room !! zeros alone, where they stand; the state has no values then
+      Mat, intent(in) :: matrix !! of the bearing, not scaled yet
+    end subroutine matrix_block
+
+    !> Its scalars in groups, always the same ones in the same order.
+    pure subroutine scalar_groups(bearing, group)
+      import :: bearing_type, scalar_group_type
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      type(scalar_group_type), allocatable, intent(out) :: group(:)
+    end subroutine scalar_groups
+  end interface
 
 contains
 
@@ -143,43 +223,88 @@ contains
     call contacts%add_penetration_rate(number, 1.0_wp, rate)
   end subroutine switch_contact
 
-  !> Where each pad's film and foil and the shaft stand among all unknowns.
+  !> Where each pad's film and foil, fields and scalars of blocks, and the shaft stand among all unknowns.
   subroutine number_unknowns(bearing)
-    class(bearing_type), intent(inout) :: bearing !! pads and shaft
-    type(block_type), allocatable :: block(:)
-    integer :: i, pads
+    class(bearing_type), intent(inout) :: bearing !! pads and shaft, with its list of blocks
+    type(block_type), allocatable :: part(:)
+    integer :: i, b, k, pads
 
     pads = size(bearing%pad)
-    if (bearing%heat%present) call number_heat(bearing%heat, pads, bearing%pad(1)%whole%rows())
-    allocate (block(merge(3*pads + 1, 2*pads, bearing%heat%present)))
-
-    do i = 1, size(bearing%pad)
+    allocate (part(2*pads + pads*count(bearing%block%fields > 0) + count(bearing%block%scalars > 0)))
+    do i = 1, pads
       associate (pad => bearing%pad(i))
-        block(2*i - 1) = block_type(pad%mesh%owned_unknowns, pad%mesh%first_unknown)
-        block(2*i) = block_type(pad%foil%owned, pad%foil%global_unknown)
-        if (bearing%heat%present) block(2*pads + i) = block_type(2*pad%mesh%owned_unknowns, pairs_of(pad%mesh%first_unknown))
+        part(2*i - 1) = block_type(pad%mesh%owned_unknowns, pad%mesh%first_unknown)
+        part(2*i) = block_type(pad%foil%owned, pad%foil%global_unknown)
       end associate
     end do
-    if (bearing%heat%present) then
-      block(3*pads + 1) = block_type(merge(bearing%heat%walls, 0, this_rank() == rank_count() - 1), [(i, i=1, bearing%heat%walls)])
-    end if
-    call create_blocks(block, size(bearing%coordinate), bearing%blocks)
+    k = 2*pads
+    do b = 1, size(bearing%block)
+      if (bearing%block(b)%fields == 0) cycle
+      associate (fields => bearing%block(b)%fields)
+        do i = 1, pads
+          associate (mesh => bearing%pad(i)%mesh)
+            part(k + i) = block_type(fields*mesh%owned_unknowns, numbers_of_fields(mesh%first_unknown, fields))
+          end associate
+        end do
+      end associate
+      k = k + pads
+    end do
+    do b = 1, size(bearing%block)
+      if (bearing%block(b)%scalars == 0) cycle
+      k = k + 1
+      associate (scalars => bearing%block(b)%scalars)
+        part(k) = block_type(merge(scalars, 0, this_rank() == rank_count() - 1), [(i, i=1, scalars)])
+      end associate
+    end do
+    call create_blocks(part, size(bearing%coordinate), bearing%blocks)
     bearing%unknowns = bearing%blocks%border%unknowns
     bearing%last_rank = bearing%blocks%border%last_rank
-    bearing%first_shaft = bearing%blocks%first(size(block) + 1)
-    if (.not. bearing%heat%present) return
-    bearing%heat%first = bearing%blocks%first(2*pads + 1:3*pads)
-    bearing%heat%first_wall = bearing%blocks%first(3*pads + 1)
+    bearing%first_shaft = bearing%blocks%first(size(part) + 1)
+    bearing%first_scalar = bearing%first_shaft - sum(bearing%block%scalars)
+    call place_block_unknowns(bearing)
   end subroutine number_unknowns
 
-  !> Numbers of the two temperatures of each node.
-  pure function pairs_of(number) result(pair)
-    integer, intent(in) :: number(:) !! of the nodes, from 1
-    integer :: pair(2*size(number))
+  !> Tells all blocks where their unknowns stand.
+  pure subroutine place_block_unknowns(bearing)
+    class(bearing_type), intent(inout) :: bearing !! numbered
+    type(bearing_block_type) :: block
+    integer :: b, k, pads, first_scalar
 
-    pair(1::2) = 2*number - 1
-    pair(2::2) = 2*number
-  end function pairs_of
+    pads = size(bearing%pad)
+    k = 2*pads
+    first_scalar = bearing%first_scalar
+    do b = 1, size(bearing%block)
+      block = bearing%block(b)
+      block%first = bearing%blocks%first(k + 1:k + merge(pads, 0, block%fields > 0))
+      k = k + size(block%first)
+      block%first_scalar = first_scalar
+      first_scalar = first_scalar + block%scalars
+      bearing%block(b) = block
+      if (associated(block%take_numbers)) call block%take_numbers(bearing, block)
+    end do
+  end subroutine place_block_unknowns
+
+  !> Numbers of the unknowns of each node that stand side by side.
+  pure function numbers_of_fields(number, fields) result(numbers)
+    integer, intent(in) :: number(:) !! of the nodes, from 1
+    integer, intent(in) :: fields !! at each
+    integer :: numbers(fields*size(number)), i
+
+    do i = 1, fields
+      numbers(i::fields) = fields*number - fields + i
+    end do
+  end function numbers_of_fields
+
+  !> Local unknowns of a block: fields, pad by pad, and scalars.
+  pure function places_of(bearing, block) result(place)
+    class(bearing_type), intent(in) :: bearing !! numbered
+    type(bearing_block_type), intent(in) :: block !! of its list
+    integer, allocatable :: place(:)
+    integer :: i
+
+    place = [(block%first_scalar + i, i=1, block%scalars)]
+    if (block%fields > 0) place = [(block%first(1) + i, i=1, block%fields*bearing%film_nodes()), place]
+  end function places_of
 
   !> Sizes of the unknowns.
   subroutine scale_unknowns(bearing)
@@ -192,7 +317,9 @@ contains
         bearing%unknown_scale(pad%first + 1:pad%last) = pad%unknown_scale()
       end associate
     end do
-    if (bearing%heat%present) bearing%unknown_scale(bearing%heat%first(1) + 1:bearing%heat%last()) = heat_scale
+    do i = 1, size(bearing%block)
+      bearing%unknown_scale(places_of(bearing, bearing%block(i))) = bearing%block(i)%unknown_size
+    end do
     bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%clearance/bearing%levers()
   end subroutine scale_unknowns
 
@@ -201,12 +328,21 @@ contains
     class(bearing_type), intent(in) :: self !! the bearing
     type(operating_point_type), intent(in) :: point !! whose speed and load count
     real(wp) :: scale(self%local_size())
+    real(wp), allocatable :: own(:)
     integer :: i
 
     do i = 1, size(self%pad)
       scale(self%pad(i)%first + 1:self%pad(i)%last) = self%pad(i)%equation_scale(point)
     end do
-    if (self%heat%present) scale(self%heat%first(1) + 1:self%heat%last()) = heat_sizes(self%heat, self%pad(1)%film)
+    do i = 1, size(self%block)
+      if (.not. associated(self%block(i)%equation_sizes)) cycle
+      associate (place => places_of(self, self%block(i)))
+        allocate (own(size(place)))
+        call self%block(i)%equation_sizes(self, own)
+        scale(place) = own
+        deallocate (own)
+      end associate
+    end do
     scale(self%first_shaft + 1:) = self%force_scale(point)*self%levers()
   end function equation_scale
 
@@ -362,6 +498,20 @@ contains
     call self%exchange%add(unknown/self%unknown_scale, vector)
   end subroutine add_up_unknowns
 
+  !> Local values with what other ranks have at the same unknowns.
+  function summed_values(self, value) result(total)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp), intent(in) :: value(:) !! of this rank's elements, in SI
+    real(wp), allocatable :: total(:)
+    PetscErrorCode :: ierr
+
+    total = value
+    if (rank_count() == 1) return
+    PetscCallA(VecSet(self%left, 0.0_wp, ierr))
+    call self%exchange%add(value, self%left)
+    call self%exchange%get(self%left, total)
+  end function summed_values
+
   !> Local unknowns of this rank.
   pure integer function local_size(self) result(unknowns)
     class(bearing_type), intent(in) :: self !! the bearing
@@ -396,6 +546,19 @@ contains
     real(wp) :: temperature(self%film_nodes())
     temperature = unknown(self%heat%first(1) + which:self%heat%first_wall:2)
   end function film_temperature
+
+  !> A field of a block at this rank's film nodes, pad by pad, among local unknowns, in SI.
+  pure function block_field(self, unknown, number, which) result(field)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    integer, intent(in) :: number !! of the block in its list
+    integer, intent(in) :: which !! of its fields
+    real(wp) :: field(self%film_nodes())
+
+    associate (block => self%block(number))
+      field = unknown(block%first(1) + which:block%first(1) + block%fields*size(field):block%fields)
+    end associate
+  end function block_field
 
   !> Puts pressures at this rank's film nodes, pad by pad, among local unknowns.
   pure subroutine put_pressure(self, pressure, unknown)

@@ -13,7 +13,9 @@ module gfb_bearing_answer
   use gfb_pad, only: pad_type
   use gfb_heat_answer, only: heat_answer_type, heat_answer
   use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress
-  use gfb_bearing_system, only: bearing_system_type, heat_flows
+  use gfb_bearing, only: bearing_state_type
+  use gfb_heat_block, only: heat_flows
+  use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
   public :: bearing_answer, heat_of_answer, place_of_gap, visit_answer
@@ -172,7 +174,7 @@ contains
     value = 0.0_wp
     associate (here => bearing%position(unknown))
       heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
-                         heat_flows(bearing, here, unknown, gap, value))
+                         heat_flows(bearing, bearing_state_type(here, bearing%point, unknown, gap), value))
     end associate
   end function read_heat
 

@@ -1,31 +1,31 @@
 #include "gfb_petsc.h"
-!> Pads and shaft as one set of equations: the terms of each pad, the shaft's balance, momentum and losses of the foils.
+!> Pads and shaft as one set of equations: the terms of each pad, the list of blocks beside them, momentum and losses of the foils.
 module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_foil_model, only: foil_model_type
-  use gfb_film_load, only: acts_on, film_forces
   use gfb_film_surface, only: translations
   use gfb_cost_events, only: cost_events_type, register_cost_events
   use gfb_operating_point, only: operating_point_type, visit_point
   use gfb_pad, only: pad_place_type, complete_pad, place_pads
-  use gfb_pad_terms, only: shaft_unknowns_type, growth_unknowns_type, pad_state_type, term_type, pad_terms, add_shaft_stiffness
+  use gfb_pad_terms, only: growth_unknowns_type, pad_state_type, term_type, pad_terms
   use gfb_archive, only: archive_type
   use gfb_text, only: text
-  use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number, rank_count
+  use gfb_petsc_session, only: sum_over_ranks, any_rank, largest_number
   use gfb_natural_order, only: natural_order_type, visit_vector
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_contact_memory, only: visit_contacts
   use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_local_exchange, only: create_exchange
-  use gfb_film_heat, only: add_shaft_flux, add_heat_residual, add_heat_flows, shaft_places
-  use gfb_film_heat_rates, only: add_heat_jacobian
-  use gfb_bearing, only: bearing_type, bearing_state_type, number_unknowns, scale_unknowns
+  use gfb_film_heat, only: add_shaft_flux, shaft_places
+  use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type, number_unknowns, scale_unknowns, places_of
+  use gfb_heat_block, only: heat_block
+  use gfb_shaft_block, only: shaft_block, shaft_of
   use gfb_foil_rows, only: add_of_foil, create_bearing_motions, soften_foils, add_softness
   implicit none (type)
   private
-  public :: create_bearing_system, set_up_equations, free_equations, heat_flows, number_by, bearing_order, path_order, visit_bearing, visit_switches
+  public :: create_bearing_system, set_up_equations, free_equations, number_by, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
@@ -35,7 +35,6 @@ module gfb_bearing_system
     type(tMat), private :: constant    !! what of the matrix never changes, in SI
     !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
     ISLocalToGlobalMapping, allocatable, private :: numbers(:)
-    type(tVec), private :: left, right !! work space: sizes of equations, inverted; sizes of unknowns
     type(cost_events_type), private :: events !! of PETSc's log
   contains
     procedure :: evaluate => evaluate_bearing
@@ -77,9 +76,10 @@ contains
 
     if (allocated(bearing%unknown_scale)) deallocate (bearing%unknown_scale)
     if (allocated(bearing%numbers)) deallocate (bearing%numbers)
-    bearing%term = pad_terms(bearing%heat%present)
-    bearing%dense_rows = bearing%floats .or. bearing%heat%present
-    bearing%low_fill = bearing%sparse .and. .not. bearing%heat%present
+    call list_blocks(bearing)
+    bearing%term = pad_terms(.not. any(bearing%block%has_film))
+    bearing%dense_rows = bearing%floats .or. any(bearing%block%scalars > 0)
+    bearing%low_fill = bearing%sparse .and. .not. any(bearing%block%fields > 0)
     call number_unknowns(bearing)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))
@@ -92,6 +92,22 @@ contains
     if (bearing%is_meshed()) call fill_constant(bearing)
   end subroutine set_up_equations
 
+  !> The blocks of equations that a bearing has beside those of its pads; the shaft's is the last one.
+  subroutine list_blocks(bearing)
+    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_block_type) :: of_heat
+    integer :: blocks
+
+    if (allocated(bearing%block)) deallocate (bearing%block)
+    allocate (bearing%block(count([bearing%heat%present, bearing%floats])))
+    blocks = size(bearing%block)
+    if (bearing%heat%present) then
+      call heat_block(bearing, of_heat)
+      bearing%block(1) = of_heat
+    end if
+    if (bearing%floats) call shaft_block(bearing%block(blocks))
+  end subroutine list_blocks
+
   !> Matrix with room for what each row couples.
   subroutine create_bearing_matrix(bearing)
     type(bearing_system_type), intent(inout) :: bearing
@@ -102,25 +118,28 @@ contains
     do i = 1, size(bearing%pad)
       entries = [entries, bearing%pad(i)%row_entries()]
     end do
-    if (bearing%heat%present) call make_room_for_heat(bearing, entries)
+    do i = 1, size(bearing%block)
+      call make_room(bearing, bearing%block(i), entries)
+    end do
     call bearing%blocks%create_matrix(entries, bearing%jacobian)
   end subroutine create_bearing_matrix
 
-  !> Entries that rows need with heat: as many more nodes' temperatures, and all walls; a wall's row may be full.
-  subroutine make_room_for_heat(bearing, entries)
+  !> Entries that rows need with a block: as many more fields at nodes around, and all scalars; a scalar's row may be full.
+  subroutine make_room(bearing, block, entries)
     type(bearing_system_type), intent(in) :: bearing
+    type(bearing_block_type), intent(in) :: block !! of its list
     PetscInt, allocatable, intent(inout) :: entries(:)
     integer :: i, around
 
-    around = 2*(2*bearing%pad(1)%whole%order + 1)**2 + bearing%heat%walls
+    around = block%fields*(2*bearing%pad(1)%whole%order + 1)**2 + block%scalars
     entries = entries + int(around, pint)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
-        entries = [entries, spread(int(2*around + pad%foil%couplings, pint), 1, 2*pad%mesh%owned_unknowns)]
+        entries = [entries, spread(int(2*around + pad%foil%couplings, pint), 1, block%fields*pad%mesh%owned_unknowns)]
       end associate
     end do
-    if (bearing%last_rank) entries = [entries, spread(int(bearing%unknowns, pint), 1, bearing%heat%walls)]
-  end subroutine make_room_for_heat
+    if (bearing%last_rank) entries = [entries, spread(int(bearing%unknowns, pint), 1, block%scalars)]
+  end subroutine make_room
 
   !> The numbers by which each pad fills the matrix: as if it were the only one.
   subroutine create_numbers(bearing)
@@ -129,12 +148,12 @@ contains
     PetscErrorCode :: ierr
     integer :: i
 
-    if (size(bearing%pad) == 1 .and. .not. bearing%heat%present) return
+    if (size(bearing%pad) == 1 .and. all(bearing%block%fields + bearing%block%scalars == 0)) return
     allocate (bearing%numbers(0:size(bearing%pad)))
     do i = 0, size(bearing%pad)
       global = bearing%blocks%global
       if (i > 0) global = [global(bearing%pad(i)%first + 1:bearing%pad(i)%last), &
-                           global(bearing%first_shaft - bearing%heat%walls + 1:)]
+                           global(bearing%first_scalar + 1:)]
       PetscCallA(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1_pint, size(global, kind=pint), global, PETSC_COPY_VALUES, bearing%numbers(i), ierr))
     end do
   end subroutine create_numbers
@@ -145,7 +164,7 @@ contains
     call create_bearing_motions(self%blocks, self%pad, self%jacobian, self%motions, self%has_motions)
   end subroutine find_motions
 
-  !> From now on a matrix is filled by the local numbers of a pad, behind them walls' and the shaft's; 0: by the bearing's.
+  !> From now on a matrix is filled by the local numbers of a pad, behind them scalars' and the shaft's; 0: by the bearing's.
   subroutine number_by(bearing, i, matrix)
     class(bearing_system_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in) :: i !! of the pad, or 0
@@ -175,11 +194,11 @@ contains
       end do
     end do
     call number_by(bearing, 0, bearing%jacobian)
-    if (bearing%heat%present) then
-      call add_heat_jacobian(bearing, bearing_state_type(bearing%point, nothing, nothing), nothing, .true., bearing%jacobian)
-      call add_softness(bearing%blocks, bearing%heat, bearing%pad, 0.0_wp, nothing, .true., bearing%jacobian)
-    end if
-    if (bearing%floats .and. bearing%last_rank) call add_shaft_stiffness(shaft_of(bearing, 0), 0.0_wp*hold_stiffness(bearing, bearing%point, .false.), bearing%jacobian)
+    call add_softness(bearing%blocks, bearing%heat, bearing%pad, 0.0_wp, nothing, .true., bearing%jacobian)
+    do k = 1, size(bearing%block)
+      if (.not. associated(bearing%block(k)%add_jacobian)) cycle
+      call bearing%block(k)%add_jacobian(bearing, bearing_state_type(bearing%point, bearing%point, nothing, nothing), .true., bearing%jacobian)
+    end do
     PetscCallA(MatAssemblyBegin(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(bearing%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(bearing%jacobian, MAT_COPY_VALUES, bearing%constant, ierr))
@@ -190,30 +209,17 @@ contains
   end subroutine fill_constant
 
   !> A pad's part of a state.
-  pure function state_of(bearing, i, point, unknown, gap, fixed) result(state)
+  pure function part_of(bearing, i, whole) result(state)
     class(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: i !! of the pad
-    type(operating_point_type), intent(in) :: point !! with the shaft's position
-    real(wp), intent(in) :: unknown(:) !! local, in SI
-    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
-    logical, intent(in) :: fixed       !! the shaft is fixed
+    type(bearing_state_type), intent(in) :: whole
     type(pad_state_type) :: state
 
     associate (pad => bearing%pad(i))
-      state = pad_state_type(point, unknown(pad%first + 1:pad%last), gap(pad%first_node + 1:pad%last_node), &
-                             shaft_of(bearing, i), growth_of(bearing, i, point), fixed)
+      state = pad_state_type(whole%point, whole%unknown(pad%first + 1:pad%last), whole%gap(pad%first_node + 1:pad%last_node), &
+                             shaft_of(bearing, i), growth_of(bearing, i, whole%point), whole%fixed)
     end associate
-  end function state_of
-
-  !> The shaft's unknowns among the numbers by which a pad fills the matrix, or among the bearing's.
-  pure function shaft_of(bearing, i) result(shaft)
-    class(bearing_system_type), intent(in) :: bearing
-    integer, intent(in) :: i !! of the pad, or 0
-    type(shaft_unknowns_type) :: shaft
-
-    shaft = shaft_unknowns_type(bearing%first_shaft, bearing%coordinate)
-    if (i > 0) shaft%before = bearing%pad(i)%last - bearing%pad(i)%first + bearing%heat%walls
-  end function shaft_of
+  end function part_of
 
   !> Temperatures that move a pad's gap, among the numbers by which it fills the matrix.
   pure function growth_of(bearing, i, point) result(growth)
@@ -230,27 +236,10 @@ contains
       end if
       growth%rate = point%growth*[-heat%shaft%growth, heat%sleeve%growth]
       allocate (growth%number(2, size(pad%film%angle)))
-      growth%number(1, :) = pad%last - pad%first - 1 + shaft_places(heat, pad, [(node, node=1, size(growth%number, 2))]) - heat%first_wall
-      growth%number(2, :) = pad%last - pad%first - 1 + heat%place_of_sleeve() - heat%first_wall
+      growth%number(1, :) = pad%last - pad%first - 1 + shaft_places(heat, pad, [(node, node=1, size(growth%number, 2))]) - bearing%first_scalar
+      growth%number(2, :) = pad%last - pad%first - 1 + heat%place_of_sleeve() - bearing%first_scalar
     end associate
   end function growth_of
-
-  !> Forces over coordinates: those that keep a fixed shaft at its position; of one that floats those of its inertia.
-  pure function hold_stiffness(bearing, point, fixed) result(stiffness)
-    class(bearing_system_type), intent(in) :: bearing
-    type(operating_point_type), intent(in) :: point !! whose load counts
-    logical, intent(in) :: fixed                     !! the shaft is fixed
-    real(wp) :: stiffness(size(bearing%coordinate), size(bearing%coordinate)), own(size(bearing%coordinate)) !! [N/m], [N m/rad]
-    integer :: i
-
-    stiffness = -point%inertia(bearing%coordinate, bearing%coordinate)
-    if (.not. fixed) return
-    own = bearing%force_scale(point)/bearing%clearance*bearing%levers()**2
-    stiffness = 0.0_wp
-    do i = 1, size(own)
-      stiffness(i, i) = own(i)
-    end do
-  end function hold_stiffness
 
   !> Residual of all equations at the present operating point.
   subroutine evaluate_bearing(self, state, residual, valid)
@@ -269,28 +258,20 @@ contains
     Vec, intent(in) :: residual   !! scaled
     logical, intent(out) :: valid !! gap and pressure are positive
 
-    real(wp) :: unknown(self%local_size()), value(self%local_size()), gap(self%film_nodes())
-    real(wp), allocatable :: flow(:)
-    type(operating_point_type) :: here
+    real(wp) :: value(self%local_size())
+    type(bearing_state_type) :: here
     type(pad_state_type) :: of_pad
     PetscErrorCode :: ierr
     integer :: i, k
 
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
-    call self%get_unknowns(unknown, state)
-    here = self%position(unknown, point)
-    call soften_foils(self%heat, here%growth, unknown, self%pad)
-    gap = self%gap(unknown, point)
+    here = state_at(self, point, state, self%shaft_fixed)
     value = 0.0_wp
-    valid = is_open(self, here, unknown, gap)
+    valid = is_open(self, here)
     if (self%is_meshed()) valid = .not. any_rank(.not. valid) ! a foil's matrix is spread over the ranks
     if (valid) then
-      if (self%heat%present) then
-        flow = heat_flows(self, here, unknown, gap, value)
-        call add_heat_flows(self, bearing_state_type(here, unknown, gap), flow, value)
-      end if
       do i = 1, size(self%pad)
-        of_pad = state_of(self, i, here, unknown, gap, self%shaft_fixed)
+        of_pad = part_of(self, i, here)
         do k = 1, size(self%term)
           if (.not. associated(self%term(k)%add_residual)) cycle
           PetscCallA(PetscLogEventBegin(event_of(self, k), ierr))
@@ -298,7 +279,9 @@ contains
           PetscCallA(PetscLogEventEnd(event_of(self, k), ierr))
         end do
       end do
-      if (self%floats) call add_shaft_residual(self, point, unknown, gap, value(self%first_shaft + 1:))
+      do k = 1, size(self%block)
+        if (associated(self%block(k)%add_residual)) call self%block(k)%add_residual(self, here, value)
+      end do
       value = value/self%equation_scale(point)
     end if
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
@@ -308,18 +291,22 @@ contains
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine evaluate_at
 
-  !> Adds what elements say of film and heat, and tells what those of all ranks take at each local unknown.
-  function heat_flows(self, here, unknown, gap, value) result(flow)
-    class(bearing_system_type), intent(in) :: self !! the bearing, with heat
-    type(operating_point_type), intent(in) :: here !! with the shaft's position
-    real(wp), intent(in) :: unknown(:) !! local, in SI
-    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
-    real(wp), intent(inout) :: value(:) !! zero before, in SI
-    real(wp), allocatable :: flow(:)
+  !> A state at an operating point; foils get the moduli that they have there.
+  function state_at(bearing, point, vector, fixed) result(state)
+    class(bearing_system_type), intent(inout) :: bearing
+    type(operating_point_type), intent(in) :: point !! as it is asked for
+    Vec, intent(in) :: vector !! scaled
+    logical, intent(in) :: fixed !! the shaft is
+    type(bearing_state_type) :: state
 
-    call add_heat_residual(self, bearing_state_type(here, unknown, gap), value)
-    flow = summed(self, value)
-  end function heat_flows
+    allocate (state%unknown(bearing%local_size()))
+    call bearing%get_unknowns(state%unknown, vector)
+    state%point = bearing%position(state%unknown, point)
+    state%asked = point
+    state%fixed = fixed
+    call soften_foils(bearing%heat, point%growth, state%unknown, bearing%pad)
+    state%gap = bearing%gap(state%unknown, point)
+  end function state_at
 
   !> Heat that flows into the shaft, at this rank's film nodes, pad by pad [W/m2].
   function shaft_flux(self, unknown) result(flux)
@@ -330,68 +317,36 @@ contains
 
     heat = 0.0_wp
     area = 0.0_wp
-    call add_shaft_flux(self, bearing_state_type(self%position(unknown), unknown, self%gap(unknown)), heat, area)
-    flux = self%film_pressure(summed(self, heat))/self%film_pressure(summed(self, area))
+    call add_shaft_flux(self, bearing_state_type(self%position(unknown), self%point, unknown, self%gap(unknown)), heat, area)
+    flux = self%film_pressure(self%summed(heat))/self%film_pressure(self%summed(area))
   end function shaft_flux
-
-  !> Local values with what other ranks have at the same unknowns.
-  function summed(self, value) result(total)
-    class(bearing_system_type), intent(in) :: self
-    real(wp), intent(in) :: value(:) !! of this rank's elements, in SI
-    real(wp), allocatable :: total(:)
-    PetscErrorCode :: ierr
-
-    total = value
-    if (rank_count() == 1) return
-    PetscCallA(VecSet(self%left, 0.0_wp, ierr))
-    call self%exchange%add(value, self%left)
-    call self%exchange%get(self%left, total)
-  end function summed
 
   !> Whether gap and pressure are positive on all ranks.
   logical function is_open_at(self, unknown)
     class(bearing_system_type), intent(in) :: self !! the bearing's equations
     real(wp), intent(in) :: unknown(:) !! local, in SI
-    is_open_at = .not. any_rank(.not. is_open(self, self%position(unknown), unknown, self%gap(unknown)))
+    is_open_at = .not. any_rank(.not. is_open(self, bearing_state_type(self%position(unknown), self%point, unknown, self%gap(unknown))))
   end function is_open_at
 
-  !> Whether gap and pressure are positive on this rank.
-  logical function is_open(bearing, point, unknown, gap) result(open)
+  !> Whether gap, pressure and what else must be are positive on this rank.
+  logical function is_open(bearing, state) result(open)
     class(bearing_system_type), intent(in) :: bearing
-    type(operating_point_type), intent(in) :: point !! with the shaft's position
-    real(wp), intent(in) :: unknown(:) !! local, in SI
-    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
+    type(bearing_state_type), intent(in) :: state
     PetscErrorCode :: ierr
     integer :: i
 
     PetscCallA(PetscLogEventBegin(bearing%events%film, ierr))
     open = .true.
-    if (bearing%heat%present) open = all(unknown(bearing%heat%first(1) + 1:bearing%heat%last()) > 0.0_wp) ! temperatures, too
+    do i = 1, size(bearing%block)
+      if (bearing%block(i)%positive) open = open .and. all(state%unknown(places_of(bearing, bearing%block(i))) > 0.0_wp)
+    end do
     do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), h => gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node))
-        open = open .and. pad%film%is_open(unknown(pad%first + 1:pad%first + size(h)), h, point)
+      associate (pad => bearing%pad(i), h => state%gap(bearing%pad(i)%first_node + 1:bearing%pad(i)%last_node))
+        open = open .and. pad%film%is_open(state%unknown(pad%first + 1:pad%first + size(h)), h, state%point)
       end associate
     end do
     PetscCallA(PetscLogEventEnd(bearing%events%film, ierr))
   end function is_open
-
-  !> Adds the shaft's equations: all forces, or its position where it is fixed.
-  pure subroutine add_shaft_residual(bearing, point, unknown, gap, value)
-    class(bearing_system_type), intent(in) :: bearing
-    type(operating_point_type), intent(in) :: point
-    real(wp), intent(in) :: unknown(:)  !! local, in SI
-    real(wp), intent(in) :: gap(:)      !! at all film nodes [m]
-    real(wp), intent(inout) :: value(:) !! of the shaft's coordinates, in SI
-    real(wp) :: force(film_forces)
-
-    if (.not. bearing%shaft_fixed) then
-      force = acts_on*bearing%local_force(unknown, gap)
-      value = force(bearing%coordinate)
-      if (bearing%last_rank) call point%add_other_forces(bearing%coordinate, unknown(bearing%first_shaft + 1:), value)
-    else if (bearing%last_rank) then
-      value = matmul(hold_stiffness(bearing, point, .true.), unknown(bearing%first_shaft + 1:) - point%place(bearing%coordinate))
-    end if
-  end subroutine add_shaft_residual
 
   !> Derivative of all equations at the present operating point.
   subroutine linearise_bearing(self, state)
@@ -407,17 +362,14 @@ contains
     logical, intent(in) :: fixed !! the shaft is fixed
     Vec, intent(in) :: state    !! scaled
 
-    real(wp) :: unknown(self%local_size()), gap(self%film_nodes()), value(self%local_size())
-    real(wp), allocatable :: flow(:)
+    type(bearing_state_type) :: here
     type(pad_state_type) :: of_pad
     PetscErrorCode :: ierr
     integer :: i, k
 
     self%times_filled = self%times_filled + 1
     PetscCallA(PetscLogEventBegin(self%events%assembly, ierr))
-    call self%get_unknowns(unknown, state)
-    call soften_foils(self%heat, point%growth, unknown, self%pad)
-    gap = self%gap(unknown, point)
+    here = state_at(self, point, state, fixed)
     if (self%is_meshed()) then
       PetscCallA(MatCopy(self%constant, self%jacobian, SAME_NONZERO_PATTERN, ierr))
     else
@@ -425,7 +377,7 @@ contains
     end if
     do i = 1, size(self%pad)
       call number_by(self, i, self%jacobian)
-      of_pad = state_of(self, i, self%position(unknown, point), unknown, gap, fixed)
+      of_pad = part_of(self, i, here)
       do k = 1, size(self%term)
         PetscCallA(PetscLogEventBegin(event_of(self, k), ierr))
         if (associated(self%term(k)%add_jacobian)) call self%term(k)%add_jacobian(self%pad(i), of_pad, self%jacobian)
@@ -433,13 +385,10 @@ contains
       end do
     end do
     call number_by(self, 0, self%jacobian)
-    if (self%heat%present) then
-      value = 0.0_wp
-      flow = heat_flows(self, self%position(unknown, point), unknown, gap, value)
-      call add_heat_jacobian(self, bearing_state_type(self%position(unknown, point), unknown, gap), flow, .false., self%jacobian)
-    end if
-    call add_softness(self%blocks, self%heat, self%pad, point%growth, unknown, .false., self%jacobian)
-    if (self%floats .and. self%last_rank) call add_shaft_stiffness(shaft_of(self, 0), hold_stiffness(self, point, fixed), self%jacobian)
+    call add_softness(self%blocks, self%heat, self%pad, point%growth, here%unknown, .false., self%jacobian)
+    do k = 1, size(self%block)
+      if (associated(self%block(k)%add_jacobian)) call self%block(k)%add_jacobian(self, here, .false., self%jacobian)
+    end do
     PetscCallA(MatAssemblyBegin(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     call self%exchange%put(1.0_wp/self%equation_scale(point), self%left)
@@ -465,16 +414,17 @@ contains
     class(bearing_system_type), intent(in) :: self !! the bearing's equations
     integer, intent(in) :: coordinate !! see `shaft_coordinates`
     Vec, intent(in) :: column         !! like the residual, scaled, by that unit
-    real(wp) :: unknown(self%local_size()), value(self%local_size()), gap(self%film_nodes())
+    real(wp) :: unknown(self%local_size()), value(self%local_size())
+    type(bearing_state_type) :: here
     type(pad_state_type) :: of_pad
     PetscErrorCode :: ierr
     integer :: i, k
 
     call self%get_unknowns(unknown)
-    gap = self%gap(unknown)
+    here = bearing_state_type(self%position(unknown), self%point, unknown, self%gap(unknown), self%shaft_fixed)
     value = 0.0_wp
     do i = 1, size(self%pad)
-      of_pad = state_of(self, i, self%position(unknown), unknown, gap, self%shaft_fixed)
+      of_pad = part_of(self, i, here)
       do k = 1, size(self%term)
         if (associated(self%term(k)%add_column)) call self%term(k)%add_column(self%pad(i), of_pad, coordinate, value(self%pad(i)%first + 1:self%pad(i)%last), value(self%first_shaft + 1:))
       end do
@@ -610,12 +560,12 @@ contains
     deallocate (bearing%unknown_scale)
   end subroutine free_equations
 
-  !> Order of a bearing's state: of each pad film node by node, foil; shaft. All ranks ask.
+  !> Order of a bearing's state: of each pad film node by node, foil; fields and scalars of blocks; shaft. All ranks ask.
   function bearing_order(bearing) result(order)
     type(bearing_system_type), intent(in) :: bearing !! with its numbering
     type(natural_order_type) :: order
     integer, allocatable :: film(:), foil(:)
-    integer :: i, k
+    integer :: k
 
     film = film_numbers(bearing%pad(1)%mesh)
     foil = bearing%pad(1)%foil%natural_numbers()
@@ -623,19 +573,42 @@ contains
     order%total = largest_number(order%number)
     order%number = [((k - 1)*order%total + order%number, k=1, size(bearing%pad))] ! pad by pad
     order%total = largest_number(order%number)
-    if (bearing%heat%present) then
-      film = [(2*film - 1 + (k - 1)*2*largest_number(film), k=1, size(bearing%pad))]
-      order%number = [order%number, reshape(transpose(reshape([film, film + 1], [size(film), 2])), [2*size(film)]) + order%total]
-      order%total = order%total + 2*size(bearing%pad)*bearing%pad(1)%whole%nodes()
-      if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, bearing%heat%walls)]
-      order%total = order%total + bearing%heat%walls
-    end if
-    if (.not. bearing%floats) return
-    associate (scalars => size(bearing%coordinate))
-      if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, scalars)]
-      order%total = order%total + scalars
-    end associate
+    do k = 1, size(bearing%block)
+      call add_fields(bearing, bearing%block(k)%fields, film, order)
+    end do
+    call add_scalars(bearing, sum(bearing%block%scalars), order)
+    if (bearing%floats) call add_scalars(bearing, size(bearing%coordinate), order)
   end function bearing_order
+
+  !> Adds unknowns of each film node, side by side.
+  pure subroutine add_fields(bearing, fields, film, order)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: fields !! of a node
+    integer, intent(in) :: film(:) !! numbers of the nodes, see `film_numbers`
+    type(natural_order_type), intent(inout) :: order
+    integer :: number(fields, size(film), size(bearing%pad)), i, k
+
+    associate (nodes => bearing%pad(1)%whole%nodes())
+      do i = 1, size(number, 3)
+        do k = 1, fields
+          number(k, :, i) = order%total + fields*(film - 1 + (i - 1)*nodes) + k
+        end do
+      end do
+      order%number = [order%number, number]
+      order%total = order%total + fields*size(number, 3)*nodes
+    end associate
+  end subroutine add_fields
+
+  !> Adds unknowns that the last rank owns.
+  pure subroutine add_scalars(bearing, scalars, order)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: scalars
+    type(natural_order_type), intent(inout) :: order
+    integer :: i
+
+    if (bearing%last_rank) order%number = [order%number, (order%total + i, i=1, scalars)]
+    order%total = order%total + scalars
+  end subroutine add_scalars
 
   !> Order of a bearing's state with its path parameter behind it. All ranks ask.
   function path_order(bearing) result(order)

@@ -87,12 +87,12 @@ module gfb_pad_terms
 
 contains
 
-  !> All terms, in the order in which they are added; a film that carries heat has its own equations.
-  function pad_terms(heated) result(list)
-    logical, intent(in) :: heated !! see `gfb_film_heat`
+  !> All terms, in the order in which they are added.
+  function pad_terms(with_film) result(list)
+    logical, intent(in) :: with_film !! false: another block of the bearing's equations has the films' own
     type(term_type) :: list(5)
 
-    if (.not. heated) list(1) = term_type(.true., film_residual, film_jacobian, film_room, film_column)
+    if (with_film) list(1) = term_type(.true., film_residual, film_jacobian, film_room, film_column)
     list(2) = term_type(.true., null(), force_jacobian, force_room, null())
     list(3) = term_type(.true., null(), asperity_jacobian, asperity_room, asperity_column)
     list(4) = term_type(.false., foil_residual, foil_jacobian, foil_constant, null())

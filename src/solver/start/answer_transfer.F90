@@ -19,6 +19,7 @@ module gfb_answer_transfer
   use gfb_bump_contacts, only: contact_top
   use gfb_foil_builder, only: axial, about_tangent
   use gfb_pad, only: pad_type
+  use gfb_bearing, only: bearing_block_type, scalar_group_type, places_of
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_fields, only: film_values
   implicit none (type)
@@ -88,45 +89,65 @@ contains
       if (bearing%floats) unknown(bearing%first_shaft + 1:) = place(bearing%coordinate)
       call bearing%set_unknowns(unknown)
     end if
-    if (bearing%heat%present) call transfer_heat(small, coarse, around, share, bearing)
+    do i = 1, size(bearing%block)
+      call transfer_block(small, coarse, around, share, i, bearing)
+    end do
   end subroutine transfer_answer
 
-  !> Temperatures of the smaller system, or that of what is drawn in where it has none.
-  subroutine transfer_heat(small, coarse, around, share, bearing)
+  !> Fields and scalars of a block of equations from the same one of the smaller system, or what they start with where it has none.
+  subroutine transfer_block(small, coarse, around, share, number, bearing)
     type(bearing_system_type), intent(in) :: small
     real(wp), intent(in) :: coarse(:)   !! its local unknowns, in SI
     integer, intent(in) :: around(:, :) !! see `film_field`
     real(wp), intent(in) :: share(:, :)
-    type(bearing_system_type), intent(inout) :: bearing !! with all but its temperatures
+    integer, intent(in) :: number !! of the block in the bearing's list
+    type(bearing_system_type), intent(inout) :: bearing !! with all but that block's unknowns
     real(wp) :: unknown(bearing%local_size())
-    type(places_type) :: across
-    integer :: which, i
+    integer :: i, k
 
-    call bearing%get_unknowns(unknown)
-    associate (heat => bearing%heat, from => small%heat)
-      unknown(heat%first(1) + 1:bearing%first_shaft) = heat%ambient
-      if (from%present) then
-        do which = 1, 2
-          unknown(heat%first(1) + which:heat%first_wall:2) = film_field(small, small%film_temperature(coarse, which), around, share)
+    associate (block => bearing%block(number), nodes => bearing%film_nodes())
+      if (block%fields + block%scalars == 0) return
+      call bearing%get_unknowns(unknown)
+      unknown(places_of(bearing, block)) = block%start
+      do k = 1, size(small%block)
+        if (small%block(k)%name /= block%name) cycle
+        do i = 1, block%fields
+          unknown(block%first(1) + i:block%first(1) + block%fields*nodes:block%fields) = &
+            film_field(small, small%field(coarse, k, i), around, share)
         end do
-        across = find_places(small%pad(1)%whole%row_axial, bearing%pad(1)%whole%row_axial, small%pad(1)%whole%half)
-        do i = 1, heat%shafts
-          unknown(heat%place_of_shaft(i)) = line_between(coarse(from%place_of_shaft(across%low(i))), &
-                                                         coarse(from%place_of_shaft(across%low(i) + 1)), across%share(i))
-        end do
-        unknown(heat%place_of_sleeve()) = coarse(from%place_of_sleeve())
-        do i = 1, size(bearing%pad)
-          unknown(heat%place_of_slit(i)) = coarse(from%place_of_slit(i))
-          if (heat%softens()) unknown(heat%place_of_mean(i)) = coarse(from%place_of_mean(i))
-        end do
-        do i = 1, merge(heat%channels, 0, from%channels > 0)
-          unknown(heat%place_of_channel(i)) = line_between(coarse(from%place_of_channel(across%low(i))), &
-                                                           coarse(from%place_of_channel(across%low(i) + 1)), across%share(i))
-        end do
-      end if
+        if (associated(block%groups)) call transfer_groups(small, coarse, small%block(k), bearing, block, unknown)
+      end do
+      call bearing%set_unknowns(unknown)
     end associate
-    call bearing%set_unknowns(unknown)
-  end subroutine transfer_heat
+  end subroutine transfer_block
+
+  !> Groups of scalars: those along the axis are straight between the smaller system's rows, others the same.
+  pure subroutine transfer_groups(small, coarse, from, bearing, to, unknown)
+    type(bearing_system_type), intent(in) :: small, bearing
+    real(wp), intent(in) :: coarse(:) !! the smaller one's local unknowns, in SI
+    type(bearing_block_type), intent(in) :: from, to !! a block of each
+    real(wp), intent(inout) :: unknown(:) !! the bearing's, in SI
+    type(scalar_group_type), allocatable :: known(:), wanted(:)
+    type(places_type) :: across
+    integer :: i, k
+
+    call from%groups(small, known)
+    call to%groups(bearing, wanted)
+    across = find_places(small%pad(1)%whole%row_axial, bearing%pad(1)%whole%row_axial, small%pad(1)%whole%half)
+    do k = 1, size(wanted)
+      associate (old => known(k), new => wanted(k))
+        if (old%count == 0) cycle
+        do i = 1, new%count
+          if (new%is_row .and. new%count > 1) then
+            unknown(new%first + i) = line_between(coarse(old%first + min(old%count, across%low(i))), &
+                                                  coarse(old%first + min(old%count, across%low(i) + 1)), across%share(i))
+          else
+            unknown(new%first + i) = coarse(old%first + min(old%count, i))
+          end if
+        end do
+      end associate
+    end do
+  end subroutine transfer_groups
 
   !> A value between two others.
   elemental real(wp) function line_between(first, last, share)
