@@ -174,7 +174,8 @@ contains
     value = 0.0_wp
     associate (here => bearing%position(unknown))
       heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
-                         heat_flows(bearing, bearing_state_type(here, bearing%point, unknown, gap), value))
+                         heat_flows(bearing, bearing_state_type(here, bearing%point, &
+                                                                unknown, gap), value))
     end associate
   end function read_heat
 
