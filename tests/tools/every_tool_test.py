@@ -34,7 +34,7 @@ from gfb.tool import run  # noqa: E402
 from slow import slow  # noqa: E402
 
 OF_PYTHON = ("bench", "coefficients", "compare", "design", "gallery", "manual", "models", "plot", "report")
-OTHERS = ("check", "check_floating_point", "check_petsc", "check_systems", "package", "run", "structure", "studio", "test")
+OTHERS = ("check", "check_floating_point", "check_petsc", "check_systems", "mutants", "package", "run", "structure", "studio", "test")
 VARIANTS = 8  # of each file, for each call
 ROTOR = CASE.replace("'fixed_position'", "'linear_dynamics'") + """&dynamics frequency_ratios = 0.2, 0.4, 0.6, 0.8, 1.0 /
 &rotor mass = 1.0 /

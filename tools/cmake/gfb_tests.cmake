@@ -93,8 +93,8 @@ endfunction()
 
 # Tests from .pf files, one executable and one test:
 #   gfb_pf_test(name TEST_SOURCES a_test.pf ... LINK_LIBRARIES ... [MAX_PES n] [LABELS ...] [TIMEOUT s] [PETSC])
-# MAX_PES: start on n ranks (the files then `use pfunit`, else `use funit`); PETSC: start PETSc first. They count as one processor:
-# most tests run on one or two of the ranks while the others sleep.
+# MAX_PES: start on n ranks (the files then `use pfunit`, else `use funit`); PETSC: start PETSc first. They count as so
+# many processors: ranks that wait give their core away, and beside another test on two cores a test takes ten times as long.
 function(gfb_pf_test name)
   cmake_parse_arguments(TEST "PETSC" "MAX_PES;TIMEOUT" "TEST_SOURCES;LINK_LIBRARIES;LABELS" ${ARGN})
   set(libraries ${TEST_LINK_LIBRARIES})
@@ -129,7 +129,7 @@ function(gfb_pf_test name)
     gfb_stand_in_executable(${name} TEST_SOURCES ${TEST_TEST_SOURCES} ${settings})
     add_test(NAME ${name} COMMAND ${command} --verbose)
   endif()
-  gfb_test_settings(${name} LABELS ${TEST_LABELS} TIMEOUT ${TEST_TIMEOUT})
+  gfb_test_settings(${name} LABELS ${TEST_LABELS} PROCESSORS ${TEST_MAX_PES} TIMEOUT ${TEST_TIMEOUT})
 endfunction()
 
 # The module that starts PETSc and SLEPc before the tests of a program.
