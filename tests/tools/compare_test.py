@@ -37,6 +37,7 @@ def results(folder, gap=GAP, summary=SUMMARY, date="today", **more):
             file[name] = values
         file["history/gap"].attrs["unit"] = "m"
         file["provenance/date"] = numpy.bytes_(date)
+        file["summary/program"] = numpy.bytes_("gfb of " + date)
         file["provenance/ranks"] = 1.0
 
 
@@ -64,7 +65,7 @@ class Results(Folder):
         return {one.where: one for one in found}
 
     def test_equal(self):
-        """Times, memory and dates are left out."""
+        """Times, memory, dates and which program it was are left out."""
         self.assertEqual(self.found(date="tomorrow", summary=SUMMARY.replace("0.1", "0.2").replace("7.0", "8.0")), {})
 
     def test_one_bit(self):

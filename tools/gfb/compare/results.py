@@ -20,6 +20,7 @@ EXCLUDED = {
     "provenance/date": "when it ran",
     "provenance/host": "where it ran",
     "provenance/command": "holds the program's path",
+    "program": "which program it was",
     "provenance/program_version": "which program it was",
     "provenance/commit": "which program it was",
     "provenance/build": "which program it was",
