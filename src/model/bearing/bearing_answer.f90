@@ -18,7 +18,7 @@ module gfb_bearing_answer
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: bearing_answer, heat_of_answer, place_of_gap, visit_answer
+  public :: bearing_answer, heat_of_answer, read_heat, place_of_gap, visit_answer
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
@@ -130,7 +130,7 @@ contains
     answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius &
                              + answer%solid_torque
     if (bearing%heat%present) then
-      answer%heat = read_heat(bearing, unknown, gap)
+      answer%heat = read_heat(bearing, bearing%position(unknown), unknown, gap)
       answer%friction_torque = answer%solid_torque
       if (abs(bearing%point%speed) > 0.0_wp) then
         answer%friction_torque = answer%heat%whole%power/bearing%point%speed + answer%solid_torque
@@ -160,23 +160,22 @@ contains
     real(wp) :: unknown(bearing%local_size())
 
     call bearing%get_unknowns(unknown)
-    heat = read_heat(bearing, unknown, bearing%gap(unknown))
+    heat = read_heat(bearing, bearing%position(unknown), unknown, bearing%gap(unknown))
   end function heat_of_answer
 
   !> Reads the heat off unknowns and gap.
-  function read_heat(bearing, unknown, gap) result(heat)
+  function read_heat(bearing, here, unknown, gap) result(heat)
     type(bearing_system_type), intent(in) :: bearing !! with heat
+    type(operating_point_type), intent(in) :: here !! with the shaft's position
     real(wp), intent(in) :: unknown(:) !! the local ones [SI]
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
     type(heat_answer_type) :: heat
     real(wp) :: value(size(unknown))
 
     value = 0.0_wp
-    associate (here => bearing%position(unknown))
-      heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
-                         heat_flows(bearing, bearing_state_type(here, bearing%point, &
-                                                                unknown, gap), value))
-    end associate
+    heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
+                       heat_flows(bearing, bearing_state_type(here, bearing%point, unknown, &
+                                                              gap), value))
   end function read_heat
 
   !> Where a thrust bearing's film is thinnest, and its pressure centred.

@@ -12,14 +12,13 @@ module gfb_answer_numbers
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
-  use gfb_bearing, only: bearing_state_type
-  use gfb_heat_block, only: heat_flows
+  use gfb_bearing_answer, only: read_heat
   use gfb_bearing_system, only: bearing_system_type
   use gfb_heated_film, only: heated_state_type, heated_jacobian, heated_shear_rates, mean_over_gap, heated_rows, heated_fields, row_foil, &
                              row_shaft, field_pressure, field_gap, field_gas, field_foil, field_shaft
   use gfb_bearing_heat, only: temperatures_at, moduli_at
   use gfb_film_heat, only: state_of, shaft_places, channel_places
-  use gfb_heat_answer, only: heat_answer_type, heat_answer
+  use gfb_heat_answer, only: heat_answer_type
   use gfb_meshed_foil, only: bump_surface
   use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress, stress_at, add_stress_rates
   implicit none (type)
@@ -207,11 +206,9 @@ contains
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp), intent(in) :: gap(:) !! at all film nodes [m]
     real(wp), intent(inout) :: number(:)
-    real(wp) :: value(size(unknown))
     type(heat_answer_type) :: heat
 
-    value = 0.0_wp
-    heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, heat_flows(bearing, bearing_state_type(here, bearing%point, unknown, gap), value))
+    heat = read_heat(bearing, here, unknown, gap)
     associate (whole => heat%whole)
       if (abs(here%speed) > 0.0_wp) number(place_torque) = number(place_torque) + whole%power/here%speed
       number(of_film:of_hottest_foil) = [whole%film_temperature, whole%maximum_film_temperature, whole%top_foil_temperature, &

@@ -75,7 +75,6 @@ contains
     integer, intent(inout) :: enlargements !! stays: the coarse level's factors are small
 
     status = 0
-    enlargements = enlargements + 0
     call drop_matrix(self)
     call copy_matrix(self, real_part, imaginary_part)
     call create_linear(self%matrix, self%motions, self%linear)
