@@ -75,3 +75,11 @@ function(gfb_compile_options target)
     set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "-std=f2018;-Wimplicit-interface")
   endif()
 endfunction()
+
+# gfb_little_optimised(LEVEL TARGET ...): what hardly computes is compiled in a half (-O1) or a fifth (-O0) of the time that its layers
+# and tests take with -O2, most of it for copies of large types. Numbers stay the same to the last bit.
+function(gfb_little_optimised level)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANG_AND_ID:Fortran,GNU>,$<CONFIG:Release>>:${level}>)
+  endforeach()
+endfunction()
