@@ -7,7 +7,7 @@ module gfb_check_scene
   use gfb_scene, only: scene_type
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_film_mesh, only: axial_rows
-  use gfb_model_case, only: foil_shell, reduction_guyan
+  use gfb_model_case, only: reduction_guyan
   use gfb_foil_builder, only: foil_plan_type
   use gfb_part_builder, only: foil_chain
   use gfb_mesh_plan, only: bearing_plan_type
@@ -41,7 +41,7 @@ contains
 
     silent%active = .false.
     if (is_bearing(scene%general%analysis)) then
-      reduced = scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_guyan
+      reduced = .not. scene%model%foil%has_shell_bumps .or. scene%model%reduction == reduction_guyan
       call plan_bearing(scene, silent, plan)
       call divide_bearing(scene, film_mesh_of(scene, plan), ranks, division, error)
     else
@@ -52,7 +52,7 @@ contains
     end if
     if (allocated(error)) return
     call show_shares(division, reduced, log)
-    if (is_bearing(scene%general%analysis) .and. scene%model%foil /= foil_shell) then
+    if (is_bearing(scene%general%analysis) .and. .not. scene%model%foil%has_shell_bumps) then
       call log%line('beams, if any, are the first rank''s')
     end if
   end subroutine show_partition

@@ -3,7 +3,6 @@ module gfb_studies
   use gfb_errors, only: error_type, fail
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_strip, analysis_modes, is_bearing
-  use gfb_model_case, only: meshes_foils
   use gfb_quantity, only: quantity_type
   use gfb_text, only: text
   use gfb_machine_memory, only: start_blas
@@ -80,7 +79,7 @@ contains
     why = ''
     associate (analysis => scene%general%analysis)
       if (is_bearing(analysis) .and. &
-          .not. (analysis == analysis_equilibrium .and. meshes_foils(scene%model%foil))) then
+          .not. (analysis == analysis_equilibrium .and. scene%model%foil%has_bumps)) then
         why = "--branches needs analysis = 'equilibrium' and foil = 'shell' or 'beam'"
       end if
     end associate

@@ -7,7 +7,6 @@ module gfb_count_rules
   use gfb_units, only: pi
   use gfb_study_cases, only: part_strip
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: meshes_foils
   use gfb_result_table, only: bearing, strip
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_strip, is_bearing, analysis_modes
@@ -197,7 +196,7 @@ contains
 
     associate (analysis => scene%general%analysis)
       meshes = analysis == analysis_strip .or. &
-               (is_bearing(analysis) .and. meshes_foils(scene%model%foil)) .or. &
+               (is_bearing(analysis) .and. scene%model%foil%has_bumps) .or. &
                (analysis == analysis_modes .and. scene%modes%part == part_strip)
     end associate
   end function meshes_bumps

@@ -8,10 +8,7 @@ module gfb_foil_rules
                             one_strip, sizes_mirror, complain_of_sizes, size_type, &
                             initial_curvature
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: foil_rigid, needs_meshes, coupling_partitioned, &
-                            foil_elastic_foundation, foil_shell, foil_plate, &
-                            foundation_pressure_local, meshes_foils, meshes_top_foil, foil_word, &
-                            foil_beam, half_width_yes
+  use gfb_model_case, only: needs_meshes, coupling_partitioned, half_width_yes
   use gfb_scene, only: scene_type
   use gfb_text, only: text
   use gfb_bearing_case, only: bearing_case_type, pad_length, leading_edge_periodic
@@ -57,7 +54,7 @@ contains
     character(len=:), allocatable :: name
 
     associate (derived => scene%sensitivity%quantity, foil => scene%model%foil)
-      if (.not. is_bearing(scene%general%analysis) .or. foil == 0) return
+      if (.not. is_bearing(scene%general%analysis) .or. .not. foil%is_known()) return
       call refuse('sensitivity', derived(top_foil_stress), derived(bump_foil_stress))
       if (scene%accuracy%quantity == 0) return
       name = asked_name(scene%accuracy)
@@ -71,9 +68,9 @@ contains
     subroutine refuse(group, of_top, of_bumps)
       character(len=*), intent(in) :: group
       logical, intent(in) :: of_top, of_bumps !! stress is asked for
-      call keys%rule(group, 'quantity', of_top .and. .not. meshes_top_foil(scene%model%foil), &
+      call keys%rule(group, 'quantity', of_top .and. .not. scene%model%foil%has_top_foil, &
                      "names a stress of foils: needs foil = 'shell', 'beam' or 'plate' in &model")
-      call keys%rule(group, 'quantity', of_bumps .and. .not. meshes_foils(scene%model%foil), &
+      call keys%rule(group, 'quantity', of_bumps .and. .not. scene%model%foil%has_bumps, &
                      "names a stress of bumps: needs foil = 'shell' or 'beam' in &model")
     end subroutine refuse
   end subroutine check_stresses
@@ -81,8 +78,8 @@ contains
   !> Whether the scene is a bearing whose foils are known, and have no meshes of their own.
   pure logical function lacks_bumps(scene) result(lacks)
     type(scene_type), intent(in) :: scene
-    lacks = is_bearing(scene%general%analysis) .and. scene%model%foil > 0 .and. &
-            .not. meshes_foils(scene%model%foil)
+    lacks = is_bearing(scene%general%analysis) .and. scene%model%foil%is_known() .and. &
+            .not. scene%model%foil%has_bumps
   end function lacks_bumps
 
   !> A bump foil that is meshed: its flats, its strips.
@@ -95,7 +92,7 @@ contains
     associate (foil => scene%bump_foil, part => scene%modes%part, &
                modes => scene%general%analysis == analysis_modes)
       whole = scene%general%analysis == analysis_strip .or. &
-              (is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil))
+              (is_bearing(scene%general%analysis) .and. scene%model%foil%has_bumps)
       if (.not. (whole .or. modes) .or. (modes .and. part == part_top_foil)) return
       whole = whole .or. part == part_strip
       ! A pitch that is shorter is complained about elsewhere.
@@ -133,12 +130,12 @@ contains
 
     associate (foil => scene%bump_foil, bearing => scene%bearing, &
                elements => scene%mesh%axial_elements)
-      meshed = is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil)
+      meshed = is_bearing(scene%general%analysis) .and. scene%model%foil%has_bumps
       call keys%rule(group, 'fixed_edge', meshed .and. foil%fixed_edge == fixed_edge_none, &
                      "must be 'leading' or 'trailing' in a bearing")
       if (meshed) call keys%rule('bearing', 'leading_edge_condition', &
                                  bearing%leading_edge_condition == leading_edge_periodic, &
-                                 "must be 'slit' with foil = '"//foil_word(scene%model%foil)// &
+                                 "must be 'slit' with foil = '"//trim(scene%model%foil%word)// &
                                  "': a foil has edges")
       call keys%rule(group, 'width', meshed .and. min(bearing%length, foil%width) > 0.0_wp .and. &
                      abs(foil%width - bearing%length) > rounding*bearing%length, &
@@ -207,8 +204,9 @@ contains
     several = scene%bump_foil%strips > 1
     associate (part => scene%modes%part)
       modes = scene%general%analysis == analysis_modes .and. part > 0
-      call keys%rule(group, 'strips', several .and. lacks_bumps(scene) .and. scene%model%foil /= &
-                     foil_plate, needs_meshes//'no other foil but a plate has strips')
+      call keys%rule(group, 'strips', several .and. lacks_bumps(scene) .and. .not. &
+                     scene%model%foil%has_top_foil, needs_meshes// &
+                     'no other foil but a plate has strips')
       call keys%rule(group, 'strips', several .and. modes, &
                      'must be 1 for modes: each strip has its own')
       call keys%rule('mesh', 'edge_refinement', several .and. scene%general%analysis == &
@@ -230,7 +228,7 @@ contains
                                    'arcs would stand upright on the flats'
 
     associate (foil => scene%bump_foil)
-      if (scene%model%foil /= foil_shell .or. foil%bumps < 1 .or. foil%strips > 1) return
+      if (.not. scene%model%foil%has_shell_bumps .or. foil%bumps < 1 .or. foil%strips > 1) return
       associate (high => foil%height%each(foil%bumps), half => foil%half_length%each(foil%bumps))
         if (any(high > half) .or. .not. any(high > steepest*half)) return
         if (allocated(foil%height%by_bump) .or. allocated(foil%half_length%by_bump)) then
@@ -258,13 +256,12 @@ contains
     if (scene%bearing%interference > 0.0_wp) then
       if (.not. bearing) then
         call keys%complain('bearing', key, 'needs a bearing with a film')
-      else if (scene%model%foil == foil_rigid) then
+      else if (.not. scene%model%foil%deflects) then
         call keys%complain('bearing', key, 'needs a foil that gives way: '// &
                            "another one than 'rigid' in &model; a smaller clearance is the same")
       else if (partitioned) then
         call keys%complain('bearing', key, monolithic)
-      else if (scene%model%foil == foil_elastic_foundation .and. &
-               scene%model%foundation_pressure == foundation_pressure_local) then
+      else if (scene%model%has_local_springs()) then
         call keys%rule('bearing', key, clearance > 0.0_wp .and. &
                        scene%bearing%interference >= clearance, 'needs '// &
                        "foundation_pressure = 'axial_mean' in &model: under the local pressure "// &
@@ -279,7 +276,7 @@ contains
       call keys%complain('top_foil', 'free_radius', needs_meshes//'no other foil bends')
     else if (partitioned) then
       call keys%complain('top_foil', 'free_radius', monolithic)
-    else if (scene%model%foil > 0 .and. min(scene%bearing%radius, clearance) > 0.0_wp) then
+    else if (scene%model%foil%is_known() .and. min(scene%bearing%radius, clearance) > 0.0_wp) then
       height = rise*abs(initial_curvature(scene%top_foil, scene%bearing%radius))* &
                scene%bearing%radius**2
       if (height >= clearance) call keys%warn('top_foil', 'free_radius', 'lets the foil rise '// &
@@ -328,7 +325,7 @@ contains
     type(scene_type), intent(in) :: scene
 
     differ = scene%bump_foil%strips > 1 .and. scene%bump_foil%random%deviation > 0.0_wp
-    if (is_bearing(scene%general%analysis)) differ = differ .and. scene%model%foil /= foil_beam
+    if (is_bearing(scene%general%analysis)) differ = differ .and. .not. scene%model%foil%is_planar
   end function heights_differ
 
   !> What of the scene knows strips of one kind only.
@@ -337,7 +334,7 @@ contains
     type(scene_type), intent(in) :: scene
 
     associate (foil => scene%bump_foil)
-      if (is_bearing(scene%general%analysis) .and. scene%model%foil == foil_beam) then
+      if (is_bearing(scene%general%analysis) .and. scene%model%foil%is_planar) then
         call alike(foil%pitch)
         call alike(foil%half_length)
         call alike(foil%height)

@@ -7,9 +7,8 @@ module gfb_motion_rules
   use gfb_motion_cases, only: tangent_stick, mass_auto, mass_on, mass_off, motion_free, &
                               follow_nothing, follow_speed, follow_unbalance, follow_mass, &
                               duration_of
-  use gfb_model_case, only: needs_meshes, coupling_partitioned, foil_elastic_foundation, &
-                            foil_rigid, foil_plate, foil_shell, half_width_yes, reduction_none, &
-                            meshes_foils, meshes_top_foil, springs_two_sided
+  use gfb_model_case, only: needs_meshes, coupling_partitioned, half_width_yes, reduction_none, &
+                            springs_two_sided
   use gfb_operation_case, only: angular_speed
   use gfb_scene, only: scene_type, foil_density
   use gfb_scene_case, only: analysis_equilibrium
@@ -46,7 +45,7 @@ contains
       if (scene%accuracy%present) then
         call keys%rule(group, 'vibration_amplitudes', amplitudes, &
                        'has no error estimate: leave &accuracy out and give the mesh')
-        call keys%rule(group, 'foil_mass', meshes_top_foil(model%foil) .and. &
+        call keys%rule(group, 'foil_mass', model%foil%has_top_foil .and. &
                        scene%foil_damping%foil_mass == mass_auto, "must be 'on' or 'off' with "// &
                        "&accuracy, in &foil_damping: 'auto' may choose differently on each mesh")
       end if
@@ -54,14 +53,15 @@ contains
         call keys%rule(group, 'frequency_ratios', any(.not. sweep%values > 0.0_wp), &
                        'needs a shaft that turns at every point of the sweep: give frequencies')
       end if
-      if (model%foil > 0) then
+      if (model%foil%is_known()) then
         call keys%rule('model', 'coupling', model%coupling == coupling_partitioned, &
                        "must be 'monolithic' with analysis = 'linear_dynamics': film and foil "// &
                        'vibrate together')
-        call keys%refuse(group, 'contact_tangent', .not. meshes_foils(model%foil), &
+        call keys%refuse(group, 'contact_tangent', .not. model%foil%has_bumps, &
                          needs_meshes//'nothing else rubs')
         call keys%rule(group, 'loss_factor', asked%loss_factor > 0.0_wp .and. &
-                       model%foil == foil_rigid, "has no use with foil = 'rigid': nothing deflects")
+                       .not. model%foil%deflects, "has no use with foil = 'rigid': nothing "// &
+                       'deflects')
         call check_damping(keys, scene)
       end if
       if (amplitudes) call check_amplitudes(keys, scene)
@@ -116,8 +116,8 @@ contains
                    'needs a scene of one answer, without &sweep')
     call keys%rule(group, name, scene%dynamics%contact_tangent /= tangent_stick, 'needs '// &
                    "contact_tangent = 'stick': contacts that have shaken down are their limit")
-    if (scene%model%foil == 0) return
-    if (.not. meshes_foils(scene%model%foil)) then
+    if (.not. scene%model%foil%is_known()) return
+    if (.not. scene%model%foil%has_bumps) then
       call keys%complain(group, name, needs_meshes//'nothing else rubs')
     else if (.not. scene%contact%may_rub) then
       call keys%complain(group, name, 'needs friction: give friction_top or friction_sleeve in '// &
@@ -140,14 +140,15 @@ contains
     character(len=*), parameter :: loss = 'loss_factor', frequency = 'loss_frequency'
     logical :: loses
 
-    call keys%rule(group, 'foundation_damping', scene%model%foil /= foil_elastic_foundation .and. &
+    call keys%rule(group, 'foundation_damping', .not. scene%model%foil%has_foundation .and. &
                    scene%foil_damping%foundation_damping > 0.0_wp, on_springs)
     call keys%refuse(group, stiffness, .not. keys%meant(group, time), &
                      'needs '//time//' beside it')
     call keys%refuse(group, time, .not. keys%meant(group, stiffness), &
                      'needs '//stiffness//' beside it')
     call keys%refuse(group, stiffness//', '//time, &
-                     all(scene%model%foil /= [0, foil_elastic_foundation]), on_springs)
+                     scene%model%foil%is_known() .and. .not. &
+                     scene%model%foil%has_foundation, on_springs)
     loses = scene%foil_damping%loss_factor > 0.0_wp
     call keys%rule(group, loss, loses .and. .not. keys%meant(group, frequency), 'needs '// &
                    frequency//' beside it: at which frequency foils have it')
@@ -156,10 +157,10 @@ contains
     call keys%rule('dynamics', loss, loses .and. scene%dynamics%loss_factor > 0.0_wp, &
                    'has no use beside '//loss//' in &foil_damping: give one of them')
     associate (model => scene%model)
-      call keys%rule(group, loss, loses .and. any(model%foil == [foil_rigid, &
-                     foil_elastic_foundation]), "needs foil = 'shell' in &model, 'beam' or "// &
+      call keys%rule(group, loss, loses .and. model%foil%is_known() .and. .not. &
+                     model%foil%has_top_foil, "needs foil = 'shell' in &model, 'beam' or "// &
                      "'plate': springs of a foundation have foundation_damping")
-      call keys%rule(group, loss, loses .and. model%foil == foil_plate .and. &
+      call keys%rule(group, loss, loses .and. model%foil%has_crest_springs .and. &
                      model%crest_springs /= springs_two_sided, 'needs crest_springs = '// &
                      "'two_sided' in &model: one that opens loses nothing while it is open")
     end associate
@@ -171,17 +172,17 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=*), parameter :: group = 'foil_damping'
 
-    if (scene%model%foil == 0) return
+    if (.not. scene%model%foil%is_known()) return
     if (.not. (scene%transient%present .or. scene%dynamics%present)) return
     associate (wanted => scene%foil_damping%foil_mass)
-      if (keys%meant(group, 'foil_mass') .and. .not. meshes_top_foil(scene%model%foil)) then
+      if (keys%meant(group, 'foil_mass') .and. .not. scene%model%foil%has_top_foil) then
         call keys%complain(group, 'foil_mass', needs_meshes//'no other foil has a mass')
       else
         call keys%rule(group, 'foil_mass', wanted == mass_on .and. &
                        .not. foil_density(scene) > 0.0_wp, 'needs the density of both foils: '// &
                        'give density in &top_foil and in &bump_foil; a plate has but &top_foil')
       end if
-      if (scene%model%foil /= foil_shell .or. scene%model%reduction == reduction_none) then
+      if (.not. scene%model%foil%has_shell_bumps .or. scene%model%reduction == reduction_none) then
         call keys%refuse(group, 'foil_modes', .true., "needs foil = 'shell' and condensed "// &
                          'bumps in &model: nothing else has modes of its own inside')
       else
@@ -385,7 +386,7 @@ contains
       call keys%refuse('rotor', 'bearing_distance', scene%rotor%present, 'has no use with '// &
                        "analysis = 'periodic': the shaft moves in x and y alone")
       call check_branch(keys, scene)
-      call keys%rule('model', 'foil', meshes_foils(scene%model%foil) .and. &
+      call keys%rule('model', 'foil', scene%model%foil%has_bumps .and. &
                      scene%contact%may_rub .and. (periodic%motion == motion_free .or. &
                      periodic%parameter /= follow_nothing), 'needs friction_top and '// &
                      "friction_sleeve of 0 with motion = 'free', and with parameter: where "// &

@@ -5,7 +5,7 @@ module gfb_plate_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_crest_lines, only: crest_line_type, crest_lines
   use gfb_foil_cases, only: bump_foil_case_type, missing_of_bumps, one_strip
-  use gfb_model_case, only: foil_plate, needs_plate
+  use gfb_model_case, only: needs_plate
   use gfb_scene, only: scene_type
   use gfb_text, only: text
   use gfb_units, only: degrees
@@ -25,8 +25,9 @@ contains
     character(len=:), allocatable :: missing
     logical :: pitched, placed
 
-    call keys%refuse(bumps, angles, all(scene%model%foil /= [0, foil_plate]), needs_plate)
-    if (scene%model%foil /= foil_plate) return
+    call keys%refuse(bumps, angles, scene%model%foil%is_known() .and. .not. &
+                     scene%model%foil%has_crest_springs, needs_plate)
+    if (.not. scene%model%foil%has_crest_springs) return
     missing = missing_of_bumps(keys, .true., pitched)
     call keys%rule('model', 'foil', missing /= '' .and. &
                    .not. keys%meant('model', 'crest_stiffness'), "'plate' needs "// &

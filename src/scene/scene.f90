@@ -19,7 +19,8 @@ module gfb_scene
                               read_transient_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
-  use gfb_model_case, only: model_case_type, foil_plate, foil_shell, meshes_foils, read_model_case
+  use gfb_foil_row, only: foil_row_type, foil_unknown
+  use gfb_model_case, only: model_case_type, read_model_case
   use gfb_operation_case, only: operation_case_type, read_operation_case, size_of_gap
   use gfb_scene_case, only: scene_case_type, needs_type, analysis_strip, read_scene_case, &
                             is_bearing, misplaced_group, analysis_modes, analysis_misalignment
@@ -84,7 +85,7 @@ contains
                               keys%holds('operation', 'axial_load'), &
                               keys%holds('operation', 'eccentricity') .or. &
                               keys%holds('operation', 'axial_gap'))
-    needs = needs_of(scene%general%analysis, scene%modes%part, foil=0)
+    needs = needs_of(scene%general%analysis, scene%modes%part, foil_unknown)
     associate (analysis => scene%general%analysis, part => scene%modes%part)
       misplaced = misplaced_group(analysis, is_bearing(analysis))
       ! Foils alone have a pad only where the top foil vibrates.
@@ -125,7 +126,7 @@ contains
                              scene%bearing%clearance, analysis, scene%model%foil)
       call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
       call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present, &
-                            scene%model%foil == foil_shell)
+                            scene%model%foil%has_shell_bumps)
       call read_output_case(keys, scene%output)
       call read_sensitivity_case(keys, scene%sensitivity, analysis)
       call read_accuracy_case(keys, scene%accuracy, analysis)
@@ -140,21 +141,22 @@ contains
     type(scene_type), intent(in) :: scene !! of a bearing
 
     density = scene%top_foil%density
-    if (scene%model%foil /= foil_plate) density = min(density, scene%bump_foil%density)
+    if (scene%model%foil%has_bumps) density = min(density, scene%bump_foil%density)
   end function foil_density
 
   !> What an analysis needs, of foils by a model, or of modes of a part.
   pure function needs_of(analysis, part, foil) result(needs)
-    integer, intent(in) :: analysis, part, foil !! 0 where they are not known
+    integer, intent(in) :: analysis, part !! 0 where they are not known
+    type(foil_row_type), intent(in) :: foil !! the model of the foils
     type(needs_type) :: needs
     logical :: modes, meshed
 
     modes = analysis == analysis_modes .and. part /= 0
-    meshed = is_bearing(analysis) .and. meshes_foils(foil)
+    meshed = is_bearing(analysis) .and. foil%has_bumps
     needs%film = is_bearing(analysis)
     needs%top_mass = modes .and. part == part_top_foil
     needs%pad = needs%film .or. needs%top_mass
-    needs%top_foil = needs%top_mass .or. meshed .or. (needs%film .and. foil == foil_plate)
+    needs%top_foil = needs%top_mass .or. (needs%film .and. foil%has_top_foil)
     needs%mass = modes .and. part /= part_top_foil
     needs%width = needs%mass .or. analysis == analysis_strip
     needs%bumps = needs%width .or. meshed

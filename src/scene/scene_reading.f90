@@ -6,8 +6,7 @@ module gfb_scene_reading
   use gfb_case_keys, only: case_keys_type
   use gfb_motion_cases, only: mass_off
   use gfb_moved_keys, only: home_of
-  use gfb_model_case, only: meshes_foils, foil_elastic_foundation, foil_plate, foil_word, &
-                            coupling_partitioned
+  use gfb_model_case, only: coupling_partitioned
   use gfb_scene, only: scene_type, read_groups
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_study_cases, only: parameter_type
@@ -147,12 +146,10 @@ contains
 
     key = named%name
     group = home_of(named%group, key)
-    foils = meshes_foils(scene%model%foil)
-    plate = scene%model%foil == foil_plate
-    springs = scene%model%foil == foil_elastic_foundation
-    computed = (springs .and. .not. keys%meant('model', 'foundation_stiffness')) .or. &
-               (plate .and. .not. keys%meant('model', 'crest_stiffness'))
-    springs = springs .or. plate
+    foils = scene%model%foil%has_bumps
+    plate = scene%model%foil%has_crest_springs
+    springs = scene%model%foil%stiffness_key /= ''
+    computed = springs .and. .not. keys%meant('model', trim(scene%model%foil%stiffness_key))
     problem = ''
     select case (group)
     case ('bearing', 'pads')
@@ -168,7 +165,8 @@ contains
     case ('operation')
       problem = operation_problem(scene, key)
     case ('top_foil')
-      if (.not. (foils .or. plate .or. (scene%thermal%present .and. key == 'thickness'))) then
+      if (.not. (scene%model%foil%has_top_foil .or. &
+                 (scene%thermal%present .and. key == 'thickness'))) then
         problem = needs_foils()
       end if
     case ('bump_foil')
@@ -193,7 +191,7 @@ contains
     case ('model')
       if (.not. springs) problem = "it needs foil = 'elastic_foundation' in &model"
       if (plate .neqv. any(key == ['crest_stiffness', 'spring_pitch   '])) then
-        problem = "foil = '"//foil_word(scene%model%foil)//"' does not know it"
+        problem = "foil = '"//trim(scene%model%foil%word)//"' does not know it"
       end if
     case default
       problem = 'it does not belong to the bearing, but to how it is computed'
@@ -210,7 +208,7 @@ contains
     function needs_foils() result(words)
       character(len=:), allocatable :: words
       words = "it needs foil = 'shell' in &model, or 'beam', not '"// &
-              foil_word(scene%model%foil)//"'"
+              trim(scene%model%foil%word)//"'"
     end function needs_foils
   end function use_problem
 
@@ -242,14 +240,11 @@ contains
     logical, intent(in) :: springs !! stand for the bumps
     logical, intent(in) :: computed !! by Walowit and Anno
     character(len=:), allocatable :: words
-    logical :: plate
 
     words = ''
-    plate = scene%model%foil == foil_plate
-    if (springs .and. .not. (computed .or. (plate .and. any(key == ['pitch       ', &
-                                                      'half_length ', 'crest_angles'])))) then
-      words = trim(merge('crest_stiffness     ', 'foundation_stiffness', plate))// &
-              ' in &model is given'
+    if (springs .and. .not. (computed .or. (scene%model%foil%has_crest_springs .and. &
+        any(key == ['pitch       ', 'half_length ', 'crest_angles'])))) then
+      words = trim(scene%model%foil%stiffness_key)//' in &model is given'
     end if
     if (computed .and. any(key == ['height', 'width '])) then
       words = 'the stiffness by Walowit-Anno does not depend on it'

@@ -11,10 +11,7 @@ module gfb_scene_rules
   use gfb_sample_rules, only: check_sample
   use gfb_foil_rules, only: check_foils
   use gfb_shape_rules, only: check_shape
-  use gfb_model_case, only: needs_meshes, foil_rigid, foil_elastic_foundation, foil_plate, &
-                            foil_shell, meshes_foils, &
-                            half_width_yes, reduction_guyan, coupling_partitioned, &
-                            foundation_pressure_local
+  use gfb_model_case, only: needs_meshes, half_width_yes, reduction_guyan, coupling_partitioned
   use gfb_motion_rules, only: check_dynamics, check_foil_mass, check_rotor, check_transient, &
                               check_periodic
   use gfb_foil_cases, only: missing_of_bumps
@@ -130,22 +127,22 @@ contains
   subroutine check_heated_foil(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    character(len=:), allocatable :: stiffness, useless
 
     associate (thermal => scene%thermal)
       call keys%rule(heat, 'carry_over', scene%bearing%leading_edge_condition == &
                      leading_edge_periodic .and. keys%meant(heat, 'carry_over'), 'has no use '// &
                      "with leading_edge_condition = 'periodic': a full ring has no slit")
-      call keys%refuse(heat, moduli, scene%model%foil == foil_rigid, 'has no use with foil = '// &
-                       "'rigid': nothing bends")
-      call keys%refuse(heat, moduli, scene%model%foil == foil_plate, 'has no effect '// &
-                       "on a plate's springs in this version")
-      call keys%refuse(heat, moduli, scene%model%foil == foil_elastic_foundation .and. &
-                       keys%meant('model', 'foundation_stiffness'), 'has no use with '// &
-                       'foundation_stiffness in &model, which no modulus changes')
+      stiffness = trim(scene%model%foil%stiffness_key)
+      useless = trim(scene%model%foil%without_modulus)
+      if (useless == '' .and. keys%meant('model', stiffness)) then
+        useless = 'has no use with '//stiffness//' in &model, which no modulus changes'
+      end if
+      call keys%refuse(heat, moduli, useless /= '', useless)
       call keys%refuse(heat, moduli, max(scene%foil_damping%foundation_damping, &
                        scene%foil_damping%arm%stiffness) > 0.0_wp, 'must not be given with '// &
                        'foundation_damping or maxwell_stiffness in &foil_damping, in this version')
-      if (meshes_foils(scene%model%foil)) return
+      if (scene%model%foil%has_bumps) return
       call keys%rule('top_foil', 'thickness', thermal%top_foil == foil_sheet .and. .not. &
                      keys%meant('top_foil', 'thickness'), 'must be given: top_foil is '// &
                      "'sheet' in &thermal")
@@ -220,8 +217,7 @@ contains
 
     associate (model => scene%model, sweep => scene%sweep, analysis => scene%general%analysis)
       if (.not. scene%shaft_contact%present .or. .not. is_bearing(analysis)) return
-      call keys%rule('model', 'foundation_pressure', model%foil == foil_elastic_foundation .and. &
-                     model%foundation_pressure == foundation_pressure_local, 'must be '// &
+      call keys%rule('model', 'foundation_pressure', model%has_local_springs(), 'must be '// &
                      "'axial_mean', of thrust bearings 'radial_mean', with &shaft_contact: "// &
                      'springs without unknowns of their own '// &
                      'feel the film alone')
@@ -244,7 +240,7 @@ contains
     character(len=:), allocatable :: words
 
     words = ''
-    if (scene%model%foil /= foil_shell) then
+    if (.not. scene%model%foil%has_shell_bumps) then
       words = 'a foil that is not of shells'
     else if (scene%transient%present .or. scene%periodic%present) then
       words = 'a motion over time'
@@ -269,7 +265,7 @@ contains
     missing = missing_of_bumps(keys, .false., pitched)
     associate (model => scene%model, solver => scene%solver, analysis => scene%general%analysis, &
                elements => scene%mesh%axial_elements)
-      call keys%rule('model', 'foil', model%foil == foil_elastic_foundation .and. missing /= '' &
+      call keys%rule('model', 'foil', model%foil%has_foundation .and. missing /= '' &
                      .and. .not. (keys%meant('model', 'foundation_stiffness') .or. &
                      model%has_strips()), 'needs '// &
                      'foundation_stiffness, or what is missing in &bump_foil: '//missing)
@@ -282,10 +278,10 @@ contains
       call check_lifts('leading_edge_lift_edge', size(scene%operation%leading_edge_lift_edge))
       if (analysis == 0) return
       bearing = is_bearing(analysis)
-      call keys%rule('solver', 'stability', solver%stability .and. model%foil /= 0 .and. &
+      call keys%rule('solver', 'stability', solver%stability .and. model%foil%is_known() .and. &
                      .not. bearing, 'needs a bearing: it is that of foils under a film')
-      call keys%rule('solver', 'stability', solver%stability .and. model%foil /= 0 .and. &
-                     bearing .and. .not. meshes_foils(model%foil), &
+      call keys%rule('solver', 'stability', solver%stability .and. model%foil%is_known() .and. &
+                     bearing .and. .not. model%foil%has_bumps, &
                      needs_meshes//'nothing else moves by itself')
       call keys%rule('solver', 'linear_solver', analysis == analysis_modes .and. &
                      solver%linear_solver /= linear_solver_direct, "must be 'direct' for modes")
@@ -354,7 +350,7 @@ contains
     integer :: point
 
     associate (bearing => scene%bearing, sweep => scene%sweep)
-      if (scene%model%foil /= foil_rigid .or. bearing%is_thrust()) return
+      if (scene%model%foil%deflects .or. bearing%is_thrust()) return
       if (.not. (bearing%clearance > 0.0_wp .and. bearing%length > 0.0_wp)) return
       if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x .or. &
           sweep%parameter == sweep_keys) then

@@ -4,7 +4,6 @@ module gfb_shape_rules
   use gfb_kinds, only: wp
   use gfb_foil_cases, only: bump_foil_case_type, has_sizes, one_bump, strips_differ
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: foil_rigid
   use gfb_motion_cases, only: follow_unbalance, rotor_case_type
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_tilt_x, sweep_tilt_y, sweep_eccentricity_x, &
@@ -89,7 +88,7 @@ contains
     associate (radius => scene%bearing%radius, operation => scene%operation, sweep => scene%sweep)
       call lifts_must_be_less('leading_edge_lift', operation%leading_edge_lift)
       call lifts_must_be_less('leading_edge_lift_edge', operation%leading_edge_lift_edge)
-      if (scene%model%foil == foil_rigid) return
+      if (.not. scene%model%foil%deflects) return
       call must_be_less(keys, 'operation', 'eccentricity', norm2(operation%eccentricity), &
                         thin*radius, '1/20'//thin_film)
       call must_be_less(keys, 'operation', 'tilt', arm*norm2(operation%tilt), thin*radius, &
@@ -147,7 +146,7 @@ contains
       end if
       if (scene%transient%present) then
         room = clearance
-        if (scene%model%foil == foil_rigid) room = room - norm2(scene%operation%eccentricity)
+        if (.not. scene%model%foil%deflects) room = room - norm2(scene%operation%eccentricity)
         call must_be_less(keys, 'transient', 'orbit_radius', scene%transient%orbit_radius, room, &
                           'what the position leaves of the clearance')
         call check_unbalance('unbalance', 'unbalance', scene%unbalance%static, mass, clearance)

@@ -5,7 +5,7 @@ module gfb_study_rules
   use gfb_study_cases, only: asked_name, of_vibrations
   use gfb_foil_cases, only: top_foil_trailing
   use gfb_case_keys, only: case_keys_type
-  use gfb_model_case, only: needs_meshes, coupling_partitioned, meshes_foils
+  use gfb_model_case, only: needs_meshes, coupling_partitioned
   use gfb_result_names, only: is_of
   use gfb_result_table, only: bearing, strip
   use gfb_scene, only: scene_type
@@ -43,9 +43,9 @@ contains
 
     associate (sweep => scene%sweep, analysis => scene%general%analysis, foil => scene%model%foil)
       if (.not. sweep%present) return
-      call keys%rule('sweep', memory, sweep%friction_memory .and. foil /= 0 .and. &
-                     .not. meshes_foils(foil), needs_meshes//'nothing else rubs')
-      call keys%rule('sweep', memory, sweep%friction_memory .and. meshes_foils(foil) .and. &
+      call keys%rule('sweep', memory, sweep%friction_memory .and. foil%is_known() .and. &
+                     .not. foil%has_bumps, needs_meshes//'nothing else rubs')
+      call keys%rule('sweep', memory, sweep%friction_memory .and. foil%has_bumps .and. &
                      .not. scene%contact%may_rub, 'needs friction_top or friction_sleeve in '// &
                      '&contact: without friction nothing is remembered')
       if (sweep%turn_folds) call check_turn_folds(keys, scene)
@@ -133,10 +133,10 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=:), allocatable :: problem
 
-    if (scene%general%analysis == 0 .or. scene%model%foil == 0) return
+    if (scene%general%analysis == 0 .or. .not. scene%model%foil%is_known()) return
     if (scene%general%analysis /= analysis_equilibrium) then
       problem = "needs analysis = 'equilibrium'"
-    else if (.not. meshes_foils(scene%model%foil)) then
+    else if (.not. scene%model%foil%has_bumps) then
       problem = needs_meshes//'no other foil has an edge that lifts'
     else if (scene%top_foil%fixed_edge /= top_foil_trailing) then
       problem = "needs fixed_edge = 'trailing' in &top_foil: a fixed edge does not lift"

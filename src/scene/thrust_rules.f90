@@ -7,8 +7,7 @@ module gfb_thrust_rules
   use gfb_foil_cases, only: bump_foil_case_type, one_strip
   use gfb_gap_shape, only: gap_shape_item_type, height_of
   use gfb_gap_shapes, only: find_shapes
-  use gfb_model_case, only: foil_rigid, foil_elastic_foundation, foil_plate, foil_shell, &
-                            foundation_pressure_local, meshes_top_foil
+  use gfb_model_case, only: foundation_pressure_local
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
@@ -55,9 +54,8 @@ contains
       call keys%rule('scene', 'analysis', scene%transient%present .or. scene%periodic%present, &
                      'cannot be that of a thrust bearing yet: its runner is '// &
                      'not followed over time')
-      call keys%rule('model', 'foil', all(foil /= [0, foil_rigid, foil_elastic_foundation, &
-                     foil_plate, foil_shell]), "must be 'rigid', 'elastic_foundation', "// &
-                     "'plate' or 'shell' with kind = 'thrust' in &bearing")
+      call keys%rule('model', 'foil', .not. foil%fits_sectors, "must be 'rigid', "// &
+                     "'elastic_foundation', 'plate' or 'shell' with kind = 'thrust' in &bearing")
       call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. &
                      any(asked(before + quantities_of_rings + 1:)) .or. asked(before + 1) .and. &
                      .not. scene%general%analysis == analysis_equilibrium, 'names a result of '// &
@@ -68,9 +66,10 @@ contains
                      'aligned runner, whose film has no wedge: give &ramp')
       call check_ramp(keys, scene)
       call check_strips(keys, scene)
-      call keys%refuse('bump_foil', 'strip_form', all(foil /= [0, foil_shell]), &
-                       "needs foil = 'shell' in &model: crests of springs are rays")
-      if (foil == foil_shell) call check_bump_strips(keys, scene%bump_foil, scene%bearing)
+      call keys%refuse('bump_foil', 'strip_form', foil%is_known() .and. .not. &
+                       foil%has_shell_bumps, "needs foil = 'shell' in &model: crests "// &
+                       'of springs are rays')
+      if (foil%has_shell_bumps) call check_bump_strips(keys, scene%bump_foil, scene%bearing)
       call check_rigid_gap(keys, scene)
     end associate
   end subroutine check_thrust
@@ -117,7 +116,7 @@ contains
                refinement => scene%mesh%edge_refinement)
       if (.not. part > 0.0_wp .or. part > 1.0_wp .or. elements < 2) return
       edge = 1.0_wp/real(elements, wp)
-      if (refinement > 1.0_wp .and. .not. meshes_top_foil(scene%model%foil)) then
+      if (refinement > 1.0_wp .and. .not. scene%model%foil%has_top_foil) then
         rate = acosh(sqrt(refinement))
         edge = 0.5_wp*(1.0_wp - tanh(rate*(1.0_wp - 2.0_wp*edge))/tanh(rate))
       end if
@@ -141,7 +140,7 @@ contains
 
     associate (model => scene%model, bearing => scene%bearing)
       call keys%refuse('model', stiffness//', '//cuts, &
-                       all(model%foil /= [0, foil_elastic_foundation]), &
+                       model%foil%is_known() .and. .not. model%foil%has_foundation, &
                        "needs foil = 'elastic_foundation'")
       call keys%rule('model', stiffness, size(model%strip_stiffness) /= 0 .and. &
                      size(model%strip_stiffness) /= size(model%cut_radii) + 1, 'must have one '// &
@@ -206,7 +205,7 @@ contains
     integer :: point
 
     associate (sweep => scene%sweep)
-      if (scene%model%foil /= foil_rigid .or. .not. scene%bearing%length > 0.0_wp) return
+      if (scene%model%foil%deflects .or. .not. scene%bearing%length > 0.0_wp) return
       if (scene%general%analysis /= analysis_fixed_position) return
       if (sweep%parameter == 0 .or. sweep%parameter == sweep_keys) then
         if (any(abs(scene%operation%tilt) > 0.0_wp)) call check_gap('operation', 'tilt', &

@@ -5,7 +5,6 @@ module gfb_foil_mass_choice
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type, foil_density
-  use gfb_model_case, only: foil_rigid, foil_plate, meshes_top_foil
   use gfb_operation_case, only: angular_speed
   use gfb_motion_cases, only: frequencies_at, mass_on, mass_off
   use gfb_bearing_system, only: bearing_system_type
@@ -41,7 +40,7 @@ contains
 
     call give_momentum(bearing, mass_wanted(scene), scene%foil_damping%foil_modes, &
                        fastest_motion(scene), inertia)
-    if (meshes_top_foil(scene%model%foil)) call describe_mass(scene, log, inertia, .true.)
+    if (scene%model%foil%has_top_foil) call describe_mass(scene, log, inertia, .true.)
     call destroy_inertia(inertia)
   end subroutine choose_momentum
 
@@ -93,12 +92,12 @@ contains
     logical, intent(in) :: first !! it is the first answer; later ones say what they have judged
     character(len=:), allocatable :: line, lowest, highest, of_foils
 
-    if (scene%model%foil == foil_rigid .or. .not. (first .or. inertia%judged)) return
+    if (.not. scene%model%foil%deflects .or. .not. (first .or. inertia%judged)) return
     lowest = hertz(inertia%lowest)
     highest = hertz(inertia%highest)
-    of_foils = 'of top foil and bumps'
-    if (scene%model%foil == foil_plate) of_foils = 'of the plate'
-    if (.not. meshes_top_foil(scene%model%foil)) then
+    of_foils = 'of the plate'
+    if (scene%model%foil%has_bumps) of_foils = 'of top foil and bumps'
+    if (.not. scene%model%foil%has_top_foil) then
       line = 'left out'
     else if (scene%foil_damping%foil_mass == mass_off) then
       line = "left out by foil_mass = 'off'"

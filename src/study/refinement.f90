@@ -8,8 +8,8 @@ module gfb_refinement
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   use gfb_errors, only: error_type
-  use gfb_model_case, only: foil_shell, foil_beam, foil_rigid, foil_elastic_foundation, &
-                            meshes_foils, film_order_bilinear, film_order_biquadratic, &
+  use gfb_foil_row, only: foil_beam
+  use gfb_model_case, only: film_order_bilinear, film_order_biquadratic, &
                             film_scheme_auto, film_scheme_galerkin, film_scheme_supg
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_reasons, only: reason_inaccurate
@@ -517,7 +517,7 @@ contains
 
     words = ''
     if (sequence%is_of_many()) return
-    if (.not. is_bearing(scene%general%analysis) .or. scene%model%foil /= foil_shell .or. &
+    if (.not. is_bearing(scene%general%analysis) .or. .not. scene%model%foil%has_shell_bumps .or. &
         .not. is_symmetric(scene)) return
     beams = scene
     beams%model%foil = foil_beam
@@ -568,7 +568,7 @@ contains
     associate (log => context%log)
       call self%sequence%show(log)
       call log%line(self%sequence%value_words())
-      if (is_bearing(scene%general%analysis) .and. meshes_foils(scene%model%foil)) then
+      if (is_bearing(scene%general%analysis) .and. scene%model%foil%has_bumps) then
         call log%line('an estimate, no bound: crests ripple the film (manual: accuracy.md)')
       end if
       if (self%converged) then
@@ -618,7 +618,7 @@ contains
 
     elements = max(least_circumferential, &
                    nint(real(scene%mesh%circumferential_elements, wp)/quarter))
-    if (.not. (meshes_foils(scene%model%foil) .and. scene%mesh%align_crests)) return
+    if (.not. (scene%model%foil%has_bumps .and. scene%mesh%align_crests)) return
     pitches = pad_length(scene%bearing)/scene%bump_foil%pitch%value
     elements = max(least_circumferential, nint(pitches*max(1, nint(elements/pitches))))
   end function first_circumferential
@@ -636,7 +636,7 @@ contains
 
     associate (mesh => scene%mesh)
       words = text(mesh%circumferential_elements)//' x '//text(mesh%axial_elements)
-      if (is_bearing(scene%general%analysis) .and. .not. meshes_foils(scene%model%foil)) return
+      if (is_bearing(scene%general%analysis) .and. .not. scene%model%foil%has_bumps) return
       words = words//', '//text(mesh%arc_elements)//'+'//text(mesh%flat_elements)
       if (is_bearing(scene%general%analysis)) return
       words = text(mesh%arc_elements)//'+'//text(mesh%flat_elements)//' x '// &
@@ -651,8 +651,8 @@ contains
 
     order = 2.0_wp
     associate (model => scene%model)
-      if (model%film_order == film_order_biquadratic .and. (model%foil == foil_rigid .or. &
-          model%foil == foil_elastic_foundation)) order = 3.0_wp
+      if (model%film_order == film_order_biquadratic .and. &
+          .not. model%foil%has_top_foil) order = 3.0_wp
     end associate
   end function formal_order
 

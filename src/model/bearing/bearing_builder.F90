@@ -1,8 +1,8 @@
 #include "gfb_petsc.h"
 !> From a scene to its equations on a mesh, with the list of foil models: what each word of `&model foil` builds.
 !>
-!> The words and what they mean are the rows of `gfb_model_case`. A new model is a row there, a type of its own that
-!> extends `foil_model_type`, which is the rigid one, and a case of `build_foil`.
+!> The words, what they mean and what each foil has are the rows of `gfb_foil_row`. A new model is a row there, a type of its own
+!> that extends `foil_model_type`, which is the rigid one, and a case of `build_foil`.
 module gfb_bearing_builder
   use petscsys
   use gfb_kinds, only: wp
@@ -10,8 +10,8 @@ module gfb_bearing_builder
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: solves_one_pad
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
-  use gfb_model_case, only: foil_shell, meshes_foils, meshes_top_foil, reduction_guyan, foil_rigid, &
-                            foil_elastic_foundation, foil_beam, foil_plate
+  use gfb_foil_row, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, foil_plate
+  use gfb_model_case, only: reduction_guyan
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh, cell_nodes
   use gfb_crest_lines, only: plate_sides
   use gfb_foil_builder, only: plate_stations, stations_follow_crests, sector_sides, shape_on_pad, gaps_beside, strip_on_pad, &
@@ -92,11 +92,11 @@ contains
     film = film_mesh_of(scene, plan)
     call check_film(scene, film, error)
     call add_context(error, scene%file//': mesh of the film')
-    if (allocated(error) .or. all(scene%model%foil /= [foil_shell, foil_plate])) return
-    call check_elements(top_mesh(film, merge(top_height(scene), 0.0_wp, scene%model%foil == foil_shell), &
+    if (allocated(error) .or. .not. scene%model%foil%has_shells) return
+    call check_elements(top_mesh(film, merge(top_height(scene), 0.0_wp, scene%model%foil%has_shell_bumps), &
                                  middle=middle_of_straight(scene%bearing, scene%bump_foil)), plate_section(scene), error)
     call add_context(error, scene%file//': mesh of the top foil')
-    if (allocated(error) .or. scene%model%foil /= foil_shell) return
+    if (allocated(error) .or. .not. scene%model%foil%has_shell_bumps) return
     associate (window => [1, maxval(dividing_stations(shape_on_pad(scene)))])
       call check_elements(strip_on_pad(scene, film, window), section_of(scene%bump_foil), error)
     end associate
@@ -287,7 +287,7 @@ contains
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
-    bearing%sparse = all(scene%model%foil /= [foil_shell, foil_plate])
+    bearing%sparse = .not. scene%model%foil%has_shells
     call create_bearing_system(bearing, foil, floats, scene%operation%moment_given, place)
     if (scene%solver%linear_solver == linear_solver_iterative) call bearing%find_motions()
     call take_film_numbers(scene, bearing)
@@ -449,7 +449,7 @@ contains
     type(division_type), intent(out) :: division !! of film and bumps
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    if (scene%model%foil == foil_shell) then
+    if (scene%model%foil%has_shell_bumps) then
       call divide(film_chain(film, .true.), &
                   strip_chain(shape_on_pad(scene), film%rows(), scene%model%reduction == reduction_guyan), &
                   parts, division, error)
@@ -477,12 +477,12 @@ contains
         end do
         mesh = sector_film_mesh([bearing%inner_radius, bearing%radius], bearing%leading_edge_angle, pad_angle(bearing), &
                                 kink, scene%model%cut_radii, plan%circumferential, plan%axial, &
-                                merge(1.0_wp, scene%mesh%edge_refinement, meshes_top_foil(scene%model%foil)), &
+                                merge(1.0_wp, scene%mesh%edge_refinement, scene%model%foil%has_top_foil), &
                                 scene%mesh%edge_refinement, plan%order)
         if (solves_one_pad(scene)) mesh%repeats = bearing%pads
-        if (scene%model%foil == foil_shell) call align_stations(mesh, bearing%leading_edge_angle + [kink, sector_sides(scene)])
-        if (scene%bore%present .and. .not. meshes_top_foil(scene%model%foil)) call align_graded(mesh, all_kinks())
-      else if (meshes_foils(scene%model%foil) .and. stations_follow_crests(scene)) then
+        if (scene%model%foil%has_shell_bumps) call align_stations(mesh, bearing%leading_edge_angle + [kink, sector_sides(scene)])
+        if (scene%bore%present .and. .not. scene%model%foil%has_top_foil) call align_graded(mesh, all_kinks())
+      else if (scene%model%foil%has_bumps .and. stations_follow_crests(scene)) then
         mesh = film_mesh_at(bearing%leading_edge_angle + plate_stations(scene)/bearing%radius, bearing%radius, &
                             bearing%length, plan%axial, plan%half, plan%order, scene%mesh%edge_refinement)
       else
@@ -490,11 +490,11 @@ contains
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
                                  bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order, &
                                  scene%mesh%edge_refinement)
-        if (size(shape) > 0 .and. .not. meshes_top_foil(scene%model%foil)) then
+        if (size(shape) > 0 .and. .not. scene%model%foil%has_top_foil) then
           call align_stations(mesh, all_kinks())
         end if
       end if
-      if (scene%model%foil == foil_plate) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
+      if (scene%model%foil%has_crest_springs) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
     end associate
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
 
@@ -531,24 +531,24 @@ contains
     type(beam_foil_type), allocatable :: beams
     type(plate_foil_type), allocatable :: plate
 
-    select case (scene%model%foil)
-    case (foil_rigid)
+    select case (scene%model%foil%number)
+    case (foil_rigid%number)
       allocate (rigid)
       call create_rigid_foil(size(mesh%mesh_node), rigid)
       call move_alloc(rigid, foil)
-    case (foil_elastic_foundation)
+    case (foil_elastic_foundation%number)
       allocate (foundation)
       call build_foundation(scene, film, mesh, foundation)
       call move_alloc(foundation, foil)
-    case (foil_shell)
+    case (foil_shell%number)
       allocate (shells)
       call create_shell_foil(scene, film, mesh, element_nodes, division, shells, error)
       if (.not. allocated(error)) call move_alloc(shells, foil)
-    case (foil_beam)
+    case (foil_beam%number)
       allocate (beams)
       call create_beam_foil(scene, film, mesh, element_nodes, beams)
       call move_alloc(beams, foil)
-    case (foil_plate)
+    case (foil_plate%number)
       allocate (plate)
       call create_plate_foil(scene, film, mesh, element_nodes, division, plate, error)
       if (.not. allocated(error)) call move_alloc(plate, foil)

@@ -8,7 +8,7 @@ module gfb_contact_case
   use gfb_scene_case, only: is_bearing, misplaced_group, analysis_strip
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_contact_law, only: law_tanh_drag, law_coulomb
-  use gfb_model_case, only: meshes_foils
+  use gfb_foil_row, only: foil_row_type
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
                                  support_held
   implicit none (type, external)
@@ -101,15 +101,15 @@ contains
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp), intent(in) :: clearance !! of a bearing [m]
     integer, intent(in) :: analysis   !! 0 where it is not known
-    integer, intent(in) :: model      !! of the foils, `foil_rigid`, ...; 0 where it is not known
+    type(foil_row_type), intent(in) :: model !! of the foils
     character(len=:), allocatable :: misplaced
     real(wp) :: deflection
     logical :: strip, bearing
 
     strip = analysis == analysis_strip
-    bearing = is_bearing(analysis) .and. meshes_foils(model)
+    bearing = is_bearing(analysis) .and. model%has_bumps
     misplaced = misplaced_group(analysis, strip .or. is_bearing(analysis))
-    if (is_bearing(analysis)) misplaced = unless(model == 0 .or. meshes_foils(model), &
+    if (is_bearing(analysis)) misplaced = unless(.not. model%is_known() .or. model%has_bumps, &
                                                  "needs foil = 'shell' in &model, or 'beam'")
     deflection = merge(clearance, typical_deflection(load, foil), bearing)
     call keys%start_group('contact', optional=.not. (strip .or. bearing), &

@@ -6,7 +6,7 @@ module gfb_mesh_case
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type, strip_straight
-  use gfb_model_case, only: model_case_type, meshes_foils, meshes_top_foil
+  use gfb_model_case, only: model_case_type
   implicit none (type, external)
   private
   public :: solver_case_type, read_solver_case, mesh_case_type, read_mesh_case
@@ -148,7 +148,7 @@ contains
                    'must be even: a node lies on the crest')
     call keys%integer_key('flat_elements', mesh%flat_elements, &
                           'elements of the flat between two bumps', from_to(1.0_wp, 1000.0_wp))
-    can_align = meshes_foils(model%foil) .and. foil%bumps > 0 .and. &
+    can_align = model%foil%has_bumps .and. foil%bumps > 0 .and. &
                 min(foil%pitch%value, foil%half_length%value, foil%height%value) > 0.0_wp
     mesh%align_crests = can_align
     call keys%logical_key('align_crests', mesh%align_crests, &
@@ -156,8 +156,8 @@ contains
                           'number of elements is then near circumferential_elements', &
                           default='`.true.` for shells and beams with bumps')
     call keys%rule('mesh', 'align_crests', mesh%align_crests .and. .not. can_align .and. &
-                   model%foil > 0, "needs foil = 'shell', and bumps, pitch, half_length and "// &
-                   "height in &bump_foil; 'beam' will do, too")
+                   model%foil%is_known(), "needs foil = 'shell', and bumps, pitch, "// &
+                   "half_length and height in &bump_foil; 'beam' will do, too")
   end subroutine read_mesh_case
 
   !> Radius at which a pitch is measured [m].
@@ -166,7 +166,7 @@ contains
     type(model_case_type), intent(in) :: model !! what `&model` asks for
 
     radius = bearing%radius
-    if (.not. (bearing%is_thrust() .and. meshes_top_foil(model%foil))) return
+    if (.not. (bearing%is_thrust() .and. model%foil%has_top_foil)) return
     radius = middle_radius(bearing)
   end function foil_radius
 
@@ -193,7 +193,7 @@ contains
     end if
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
     if (foil%strip_form == strip_straight) elements = 2*elements ! crests cross them
-    if (bearing%is_thrust() .and. meshes_top_foil(model%foil)) then
+    if (bearing%is_thrust() .and. model%foil%has_top_foil) then
       elements = max(elements, elements_of_sector)
     end if
   end function elements_along_pad

@@ -3,30 +3,11 @@ module gfb_model_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type, unless, from_to, positive, longest_list
+  use gfb_foil_row, only: foil_row_type, foil_rows, foil_shell
   use gfb_scene_case, only: is_bearing, is_structure
   implicit none (type, external)
   private
-  public :: model_case_type, read_model_case, meshes_foils, meshes_top_foil, &
-            foil_word, foil_meaning, foil_count
-
-  !> Rows of the list of foil models, in its order.
-  integer, parameter, public :: foil_rigid = 1, foil_elastic_foundation = 2
-  integer, parameter, public :: foil_shell = 3, foil_beam = 4, foil_plate = 5
-
-  !> A foil model, as the scene knows it; `gfb_bearing_builder` has what each row builds.
-  type :: foil_row_type
-    character(len=18) :: word    !! in the case file
-    logical :: meshed            !! top foil and bumps have meshes of their own
-    character(len=70) :: meaning !! to the log; of meshed foils behind 'top foil and bumps'
-  end type foil_row_type
-
-  type(foil_row_type), parameter :: foil_rows(*) = [ &
-    foil_row_type('rigid', .false., 'rigid, no structure'), &
-    foil_row_type('elastic_foundation', .false., 'elastic foundation'), &
-    foil_row_type('shell', .true., 'as shells in contact'), &
-    foil_row_type('beam', .true., &
-                  'as planar beams in contact, under the axial mean of the pressure'), &
-    foil_row_type('plate', .false., 'top foil of shells on springs along the crests of bumps')]
+  public :: model_case_type, read_model_case
 
   !> What most keys of bumps say to other foils, and then why.
   character(len=*), parameter, public :: needs_meshes = &
@@ -73,7 +54,7 @@ module gfb_model_case
 
   !> The model.
   type :: model_case_type
-    integer :: foil = 0                          !! `foil_rigid`, ...
+    type(foil_row_type) :: foil                  !! unknown where its word is misspelt
     integer :: reduction = reduction_guyan
     character(len=:), allocatable :: reduction_reason !! of the program's choice, by 'auto'
     integer :: half_width = half_width_auto      !! one half, with symmetry at the midplane
@@ -89,7 +70,7 @@ module gfb_model_case
     integer :: crest_springs = springs_one_sided
     real(wp) :: spring_pitch = 0.0_wp            !! of springs at points; 0: along the lines [m]
   contains
-    procedure :: has_strips
+    procedure :: has_strips, has_local_springs
   end type model_case_type
 
 contains
@@ -101,18 +82,21 @@ contains
     logical, intent(in) :: thrust   !! the pads are sectors of a ring
     integer, intent(in) :: analysis !! 0 where it is not known
     character(len=:), allocatable :: journal !! why keys of one have no use
+    integer :: foil !! its number, 0 where it is not known
 
     journal = unless(.not. thrust, needs_journal)
     call keys%start_group('model', required=is_bearing(analysis))
-    if (is_structure(analysis)) model%foil = foil_shell
-    call keys%choice_key('foil', model%foil, foil_rows%word, 'model of the foils', &
-                         is_bearing(analysis))
-    call keys%rule('model', 'foil', is_structure(analysis) .and. model%foil /= foil_shell .and. &
-                   model%foil /= 0, "must be 'shell' for strips and modes")
+    foil = 0
+    if (is_structure(analysis)) foil = foil_shell%number
+    call keys%choice_key('foil', foil, foil_rows%word, 'model of the foils', is_bearing(analysis))
+    if (foil > 0) model%foil = foil_rows(foil)
+    call keys%rule('model', 'foil', is_structure(analysis) .and. foil > 0 .and. &
+                   .not. model%foil%has_shell_bumps, "must be 'shell' for strips and modes")
     call keys%choice_key('reduction', model%reduction, reduction_words, 'condense the bumps of '// &
                          'shells onto the lines that can be loaded; `auto`: where that costs '// &
-                         'less', useless=unless(any(model%foil == [0, foil_shell]), &
-                         "needs foil = 'shell': no other foil is condensed"))
+                         'less', useless=unless(.not. model%foil%is_known() .or. &
+                         model%foil%has_shell_bumps, "needs foil = 'shell': no other foil is "// &
+                         'condensed'))
     call keys%choice_key('half_width', model%half_width, half_words, &
                          'solve one half, with symmetry at the midplane', useless=journal)
     call keys%choice_key('coupling', model%coupling, coupling_words, &
@@ -164,8 +148,7 @@ contains
     end if
     call read_crest_springs(keys, model)
     call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
-                   model%foil == foil_elastic_foundation .and. &
-                   model%foundation_pressure == foundation_pressure_local, 'cannot be '// &
+                   model%has_local_springs(), 'cannot be '// &
                    "'partitioned' where foundation_pressure is 'local': springs under each "// &
                    'pressure have no equations of their own')
   end subroutine read_model_case
@@ -176,7 +159,7 @@ contains
     type(model_case_type), intent(inout) :: model
     character(len=:), allocatable :: useless
 
-    useless = unless(any(model%foil == [0, foil_plate]), needs_plate)
+    useless = unless(model%foil%has_crest_springs .or. .not. model%foil%is_known(), needs_plate)
     call keys%real_key('crest_stiffness', model%crest_stiffness, 'N/m^2', 'line force over '// &
                        'deflection of the crests under a plate', positive, default= &
                        'Walowit-Anno from `&bump_foil`, times the pitch', useless=useless)
@@ -187,7 +170,8 @@ contains
                        'a crest, each of crest_stiffness times it: coil springs under a plate', &
                        positive, default='none: crests are lines of springs', useless=useless)
     call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
-                   model%foil == foil_plate, "cannot be 'partitioned' with foil = 'plate'")
+                   .not. model%foil%can_take_turns, "cannot be 'partitioned' with foil = '"// &
+                   trim(model%foil%word)//"'")
   end subroutine read_crest_springs
 
   !> Whether strips side by side have their own stiffness.
@@ -197,36 +181,9 @@ contains
     if (has) has = size(self%strip_stiffness) > 0
   end function has_strips
 
-  !> Whether top foil and bumps have meshes of their own.
-  elemental logical function meshes_foils(foil) result(meshes)
-    integer, intent(in) :: foil !! the model's, 0 where it is not known
-
-    meshes = .false.
-    if (foil > 0) meshes = foil_rows(foil)%meshed
-  end function meshes_foils
-
-  !> Whether the top foil has a mesh, with bumps under it or springs.
-  elemental logical function meshes_top_foil(foil) result(meshes)
-    integer, intent(in) :: foil !! the model's, 0 where it is not known
-    meshes = meshes_foils(foil) .or. foil == foil_plate
-  end function meshes_top_foil
-
-  !> The word of a foil model in a case file.
-  pure function foil_word(foil) result(word)
-    integer, intent(in) :: foil !! the model's
-    character(len=:), allocatable :: word
-    word = trim(foil_rows(foil)%word)
-  end function foil_word
-
-  !> Number of foil models there are.
-  pure integer function foil_count() result(models)
-    models = size(foil_rows)
-  end function foil_count
-
-  !> What a foil model is, to the log.
-  pure function foil_meaning(foil) result(meaning)
-    integer, intent(in) :: foil !! the model's
-    character(len=:), allocatable :: meaning
-    meaning = trim(foil_rows(foil)%meaning)
-  end function foil_meaning
+  !> Whether the foil is springs that feel the pressure at their point alone, and have no unknowns.
+  pure logical function has_local_springs(self) result(has)
+    class(model_case_type), intent(in) :: self !! what `&model` asks for
+    has = self%foil%has_foundation .and. self%foundation_pressure == foundation_pressure_local
+  end function has_local_springs
 end module gfb_model_case

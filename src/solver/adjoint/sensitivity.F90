@@ -20,7 +20,6 @@ module gfb_sensitivity
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_model_case, only: meshes_foils
   use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
   use gfb_newton, only: newton_type
   use gfb_corrected_solve, only: solve_corrected
@@ -85,7 +84,7 @@ contains
     asked = scene%sensitivity%quantity
     asked(before_whirl + 1:) = .false.
     call find_adjoints(asked, bearing, newton, tangent, answer%nodes, combined, adjoint, solved)
-    if (meshes_foils(scene%model%foil)) call find_motions(bearing, adjoint, solved, answer)
+    if (scene%model%foil%has_bumps) call find_motions(bearing, adjoint, solved, answer)
     associate (parameter => scene%sensitivity%parameter)
       allocate (found%derivative(size(quantity_words), size(parameter)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       found%problem = ''
@@ -287,7 +286,7 @@ contains
       end if
       call keep_elements(scene, there)
       ! Stresses of changed foils, condensed parts with them, are those of foils built anew.
-      if (meshes_foils(scene%model%foil) .and. keeps_meshes(scene, parameter%key) .and. &
+      if (scene%model%foil%has_bumps .and. keeps_meshes(scene, parameter%key) .and. &
           .not. (derives_stress(scene%sensitivity) .and. changes_foils(parameter%key))) then
         call evaluate_in_place(scene, there, parameter%key, bearing, answer, residual, number, work, valid, error)
       else

@@ -21,7 +21,6 @@ module gfb_whirl_sensitivity
   use gfb_study_cases, only: parameter_type
   use gfb_operation_case, only: angular_speed
   use gfb_motion_cases, only: mass_on, mass_off
-  use gfb_model_case, only: meshes_foils
   use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
@@ -396,7 +395,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(swept_key_type), intent(in) :: key
 
-    keeps = meshes_foils(scene%model%foil) .and. keeps_meshes(scene, key)
+    keeps = scene%model%foil%has_bumps .and. keeps_meshes(scene, key)
     if (key%group == 'top_foil' .or. key%group == 'bump_foil') keeps = keeps .and. key%is_gap()
   end function keeps_foils
 

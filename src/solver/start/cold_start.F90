@@ -30,7 +30,7 @@ module gfb_cold_start
   use gfb_smaller_start, only: find_smaller, find_between, lies_between
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
-  use gfb_model_case, only: foil_rigid
+  use gfb_foil_row, only: foil_rigid
   implicit none (type)
   private
   public :: start_bearing, start_partitioned

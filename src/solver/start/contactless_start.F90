@@ -8,7 +8,6 @@ module gfb_contactless_start
   use gfb_ending, only: path_lost, path_touches_at
   use gfb_text, only: text
   use gfb_film_surface, only: axial => axial_coordinate, translations
-  use gfb_model_case, only: foil_rigid
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -72,7 +71,7 @@ contains
     call open_place(problem%bearing, point, place, exists)
     if (exists) then
       if (any(abs(place - point%place(:2)) > 0.0_wp)) call place_shaft(problem%bearing, place)
-    else if (problem%scene%model%foil == foil_rigid) then
+    else if (.not. problem%scene%model%foil%deflects) then
       call refuse_room(problem, 'its tilt closes the gap', report)
     end if
   end subroutine make_room
@@ -106,7 +105,7 @@ contains
       held = target
       closing = closing_gaps(bearing, target, play)
       if (play > 0.0_wp .and. sum(closing) >= play) then
-        if (problem%scene%model%foil == foil_rigid) then
+        if (.not. problem%scene%model%foil%deflects) then
           call refuse_room(problem, 'its tilt takes '//text(sum(closing), 4)//' m of axial_play', report)
           return
         end if

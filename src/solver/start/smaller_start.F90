@@ -11,7 +11,7 @@ module gfb_smaller_start
   use gfb_kinds, only: wp
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_model_case, only: foil_shell, meshes_foils, half_width_auto
+  use gfb_model_case, only: half_width_auto
   use gfb_bearing_case, only: pad_length
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
   use gfb_mesh_plan, only: bearing_plan_type
@@ -49,7 +49,7 @@ contains
     found = .true.
     if (can_halve(scene, plan, target)) then
       small_plan%half = .true.
-    else if (meshes_foils(scene%model%foil)) then
+    else if (scene%model%foil%has_bumps) then
       call coarsen_foils(scene, plan, found, small, small_plan)
     else if (can_coarsen(plan)) then
       small_plan = coarser_film(plan)
@@ -84,7 +84,7 @@ contains
     type(bearing_plan_type), intent(in) :: plan
     type(operating_point_type), intent(in) :: target
 
-    can = meshes_foils(scene%model%foil) .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
+    can = scene%model%foil%has_bumps .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
       modulo(plan%axial, 2) == 0 .and. scene%thermal%mirrors() .and. .not. any(abs(target%place(4:5)) > 0.0_wp) .and. &
       .not. scene%bearing%is_thrust()
   end function can_halve
@@ -124,7 +124,7 @@ contains
     integer :: fewest, of_strips
 
     fewest = 2*max(1, least_axial/plan%order)
-    if (scene%model%foil /= foil_shell) return
+    if (.not. scene%model%foil%has_shell_bumps) return
     of_strips = 2*max(1, scene%bump_foil%strips) ! symmetric
     fewest = of_strips*((fewest - 1)/of_strips + 1)
   end function fewest_rows

@@ -8,7 +8,6 @@ module gfb_start_list
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_operating_point, only: operating_point_type
-  use gfb_model_case, only: meshes_foils
   use gfb_continuation, only: path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, &
                                clearance_of, trial_settings, usual_eccentricity, first_step
@@ -103,7 +102,7 @@ contains
     associate (bearing => problem%bearing, target => problem%target)
       if (problem%scene%bearing%is_thrust()) then
         starts = [start_from_gap]
-      else if (.not. meshes_foils(problem%scene%model%foil)) then
+      else if (.not. problem%scene%model%foil%has_bumps) then
         starts = [start_from_rest]
         if (bearing%floats .and. norm2(target%load(:2)) > 0.0_wp .and. target%speed > 0.0_wp) starts = [starts, start_laid_down]
       else
@@ -252,7 +251,7 @@ contains
     type(start_problem_type), intent(in) :: problem
     type(path_report_type), intent(in) :: report !! of the starts before
 
-    suits = problem%bearing%floats .and. meshes_foils(problem%scene%model%foil) .and. .not. &
+    suits = problem%bearing%floats .and. problem%scene%model%foil%has_bumps .and. .not. &
       (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction .or. &
        problem%scene%bearing%is_thrust())
     if (suits) suits = has_free_edge(problem%bearing)

@@ -11,7 +11,7 @@ module gfb_bearing_solution
   use gfb_scene, only: scene_type
   use gfb_scene_case, only: analysis_equilibrium
   use gfb_scene_reading, only: scene_at_value
-  use gfb_model_case, only: foil_elastic_foundation, foundation_pressure_local, coupling_partitioned, foil_rigid
+  use gfb_model_case, only: coupling_partitioned
   use gfb_sweep_case, only: operation_at, sweep_keys
   use gfb_scene_point, only: operating_point, operating_point_type
   use gfb_mesh_plan, only: bearing_plan_type
@@ -80,7 +80,7 @@ contains
       if (self%scene%bearing%is_thrust()) self%tolerances%bold_steps = bold_steps
     end associate
     self%tolerances%bound => self%bound
-    self%partitioned = scene%model%coupling == coupling_partitioned .and. scene%model%foil /= foil_rigid
+    self%partitioned = scene%model%coupling == coupling_partitioned .and. scene%model%foil%deflects
     allocate (self%record%history(0), self%record%judged(0))
   end subroutine set_up
 
@@ -363,7 +363,7 @@ contains
     end if
     associate (point => report%reached, force => self%bearing%reaction(), log => self%context%log)
       call log%tell(reason%words())
-      if (has_stiff_edges(self%scene)) then
+      if (self%scene%model%has_local_springs()) then
         call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do '// &
                       'not deflect and may touch first; '''// &
                       trim(merge('radial_mean', 'axial_mean ', self%scene%bearing%is_thrust()))//''' in &model lets them')
@@ -412,15 +412,6 @@ contains
     words = '('//text(force(1), 5)//', '//text(force(2), 5)//') N'
     if (bearing%pad(1)%film%surface%is_ring()) words = text(force(axial_coordinate), 5)//' N'
   end function force_words
-
-  !> Whether the edges of the film do not deflect: they are at ambient pressure.
-  pure logical function has_stiff_edges(scene) result(has)
-    type(scene_type), intent(in) :: scene
-
-    has = .false.
-    if (scene%model%foil /= foil_elastic_foundation) return
-    has = scene%model%foundation_pressure == foundation_pressure_local
-  end function has_stiff_edges
 
   !> Frees what paths alone need; the bearing stays.
   subroutine drop_helpers(self)

@@ -5,7 +5,6 @@ module gfb_bearing_writing
   use petscsys
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type
-  use gfb_model_case, only: meshes_foils
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: this_rank, share_failure
   use gfb_sweep_case, only: sweep_keys
@@ -269,7 +268,7 @@ contains
       if (.not. result%plan%upwind) call show_unresolved(log, result%plan, answer%rough_peclet)
       call show_large_deflection(log, scene, answer%maximum_deflection)
       if (.not. converged) call show_early_end(log, scene, answer%minimum_gap)
-      if (meshes_foils(scene%model%foil)) call show_contact_notes(log, scene%contact, answer%contact, answer%maximum_deflection)
+      if (scene%model%foil%has_bumps) call show_contact_notes(log, scene%contact, answer%contact, answer%maximum_deflection)
       allocate (grids(0))
       call add_film_grid(bearing, scene%output, grids)
       call add_foil_grids(bearing, grids)

@@ -10,7 +10,6 @@ module gfb_dynamics
   use gfb_result_names, only: add_result
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: meshes_foils
   use gfb_motion_cases, only: tangent_stick, frequencies_at
   use gfb_film_surface, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type, free_equations
@@ -362,7 +361,7 @@ contains
       call log%line('losses: viscous ones of the foils, with the loss factor '//text(scene%foil_damping%loss_factor, digits)// &
                     ' at '//text(scene%foil_damping%loss_frequency, digits)//' rad/s')
     end if
-    if (.not. meshes_foils(scene%model%foil)) return
+    if (.not. scene%model%foil%has_bumps) return
     call log%line('contacts: closed ones stay closed, and if they rub '// &
                   trim(merge('stick   ', 'slide on', scene%dynamics%contact_tangent == tangent_stick)))
     if (scene%dynamics%loss_factor > 0.0_wp) then

@@ -4,10 +4,9 @@ module gfb_bearing_plan
   use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_gas_case, only: gas_case_type
-  use gfb_model_case, only: foil_elastic_foundation, meshes_foils, foil_shell, foil_word, &
-                            foil_meaning, reduction_guyan, half_width_auto, half_width_yes, &
-                            film_scheme_supg, film_scheme_auto, film_order_biquadratic, &
-                            foundation_pressure_axial_mean, foil_plate, springs_two_sided
+  use gfb_model_case, only: reduction_guyan, half_width_auto, half_width_yes, film_scheme_supg, &
+                            film_scheme_auto, film_order_biquadratic, &
+                            foundation_pressure_axial_mean, springs_two_sided
   use gfb_crest_lines, only: crest_line_type, crest_lines
   use gfb_operation_case, only: angular_speed
   use gfb_run_log, only: run_log_type
@@ -83,9 +82,9 @@ contains
                     spread_text(scene, sweep_load, norm2(scene%operation%load), 1.0_wp/(p_a*area)))
     end if
     stiffness = 0.0_wp
-    if (scene%model%foil == foil_elastic_foundation) then
+    if (scene%model%foil%has_foundation) then
       stiffness = foundation_stiffness(scene%model, scene%bump_foil)
-    else if (meshes_foils(scene%model%foil)) then
+    else if (scene%model%foil%has_bumps) then
       stiffness = bump_stiffness(scene%bump_foil)
     end if
     if (stiffness > 0.0_wp) then
@@ -128,7 +127,7 @@ contains
 
     plan%order = scene%model%film_order
     plan%circumferential = scene%mesh%circumferential_elements
-    if (meshes_foils(scene%model%foil) .and. stations_follow_crests(scene)) then
+    if (scene%model%foil%has_bumps .and. stations_follow_crests(scene)) then
       plan%circumferential = size(plate_stations(scene)) - 1
     end if
     plan%axial = scene%mesh%axial_elements
@@ -148,7 +147,7 @@ contains
     else
       call log%line('shaft: position given, no shaft unknowns')
     end if
-    if (rank_count() > plan%circumferential .and. scene%model%foil /= foil_shell) then
+    if (rank_count() > plan%circumferential .and. .not. scene%model%foil%has_shell_bumps) then
       call log%warning(text(rank_count() - plan%circumferential)//' of '//text(rank_count())// &
                        ' ranks have nothing to do: the pad has '//text(plan%circumferential)// &
                        ' columns of elements to share out')
@@ -179,8 +178,8 @@ contains
     if (solves_one_pad(scene)) films = sides
     call show_few(films*nodes, scene, log)
     plan%memory = film_memory(films*nodes, rank_count())
-    if (scene%model%foil == foil_plate) plan%memory = plate_memory(films*nodes)
-    if (scene%model%foil == foil_shell) call show_foil_sizes(scene, films, nodes, plan, log)
+    if (scene%model%foil%has_crest_springs) plan%memory = plate_memory(films*nodes)
+    if (scene%model%foil%has_shell_bumps) call show_foil_sizes(scene, films, nodes, plan, log)
     plan%memory = plan%memory*study_share(scene, plan%half)
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
@@ -223,7 +222,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
 
-    if (rank_count() == 1 .or. scene%model%foil == foil_shell) return
+    if (rank_count() == 1 .or. scene%model%foil%has_shell_bumps) return
     if (nodes >= few_nodes*rank_count()) return
     call log%line('ranks: '//text(nodes/rank_count())//' nodes of the film on each, where '// &
                   text(few_nodes)//' are few: one rank is hardly slower, and --groups computes '// &
@@ -265,7 +264,7 @@ contains
     type(run_log_type), intent(in) :: log
     character(len=:), allocatable :: source, pressure
 
-    if (scene%model%foil == foil_elastic_foundation) then
+    if (scene%model%foil%has_foundation) then
       source = 'by Walowit-Anno from &bump_foil'
       if (scene%model%foundation_stiffness > 0.0_wp) source = 'as given'
       pressure = 'local pressure'
@@ -278,16 +277,16 @@ contains
       if (scene%bump_foil%present .and. scene%model%foundation_stiffness > 0.0_wp) then
         call log%line('  &bump_foil is not used: foundation_stiffness is given')
       end if
-    else if (meshes_foils(scene%model%foil)) then
+    else if (scene%model%foil%has_bumps) then
       call log%line('foil: top foil and '//text(scene%bump_foil%bumps)//' bumps '// &
-                    foil_meaning(scene%model%foil))
+                    trim(scene%model%foil%meaning))
       call show_strips(scene%bump_foil, log)
-    else if (scene%model%foil == foil_plate) then
+    else if (scene%model%foil%has_crest_springs) then
       call describe_plate(scene, log)
     else
-      call log%line('foil: '//foil_meaning(scene%model%foil))
+      call log%line('foil: '//trim(scene%model%foil%meaning))
       if (scene%bump_foil%present) then
-        call log%line('  &bump_foil is not used by a '//foil_word(scene%model%foil)//' foil')
+        call log%line('  &bump_foil is not used by a '//trim(scene%model%foil%word)//' foil')
       end if
     end if
   end subroutine describe_foil
@@ -307,7 +306,7 @@ contains
     if (scene%model%spring_pitch > 0.0_wp) then
       springs = springs//', at points '//text(scene%model%spring_pitch*1.0e3_wp, 4)//' mm apart'
     end if
-    call log%line('foil: '//foil_meaning(scene%model%foil))
+    call log%line('foil: '//trim(scene%model%foil%meaning))
     call log%line('  '//text(maxval(lines%number))//' crests of '// &
                   text(lines(1)%stiffness*1.0e-6_wp, 5)//' N/mm^2 '//source//', springs '//springs)
   end subroutine describe_plate

@@ -7,7 +7,7 @@ module gfb_foil_plan
   use gfb_scene_case, only: analysis_strip, analysis_modes
   use gfb_scene_rules, only: is_symmetric
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan, reduction_none, &
-                            reduction_auto, foil_shell
+                            reduction_auto
   use gfb_study_cases, only: part_words, part_strip
   use gfb_foil_cases, only: bump_foil_case_type, fixed_edge_none, has_flats, strips_differ, &
                             sizes_mirror
@@ -31,7 +31,7 @@ contains
 
     if (scene%model%reduction /= reduction_auto) return
     scene%model%reduction = reduction_guyan
-    if (scene%model%foil /= foil_shell .or. scene%general%analysis == analysis_modes) return
+    if (.not. scene%model%foil%has_shell_bumps .or. scene%general%analysis == analysis_modes) return
     half = scene%model%half_width == half_width_yes
     if (scene%model%half_width == half_width_auto) then
       half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil)

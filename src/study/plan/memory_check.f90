@@ -15,7 +15,7 @@ module gfb_memory_check
   use gfb_petsc_session, only: rank_count, ranks_on_node, largest_over_ranks
   use gfb_nonlinear_system, only: few_unknowns
   use gfb_scene, only: scene_type
-  use gfb_model_case, only: foil_shell, reduction_guyan
+  use gfb_model_case, only: reduction_guyan
   use gfb_scene_case, only: analysis_modes
   use gfb_scene_rules, only: what_factors_do
   implicit none (type, external)
@@ -150,7 +150,7 @@ contains
     real(wp), intent(in) :: cold !! without heat [B]
     real(wp), parameter :: a_node = 1.0e4_wp, of_shells = 1.5_wp !! [B], [1]
 
-    bytes = cold*merge(of_shells, 1.0_wp, scene%model%foil == foil_shell) &
+    bytes = cold*merge(of_shells, 1.0_wp, scene%model%foil%has_shell_bumps) &
       + a_node*real(nodes*scene%bearing%all_pads(), wp)
   end function heated_memory
 
@@ -201,7 +201,7 @@ contains
     logical :: shells
 
     words = 'a coarser &mesh'
-    shells = scene%model%foil == foil_shell .and. scene%general%analysis /= analysis_modes
+    shells = scene%model%foil%has_shell_bumps .and. scene%general%analysis /= analysis_modes
     if (shells .and. scene%model%reduction == reduction_guyan) then
       words = words//", reduction = 'none' where the mesh is wide"
     else if (shells) then
