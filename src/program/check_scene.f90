@@ -13,7 +13,6 @@ module gfb_check_scene
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_builder, only: divide_bearing, film_mesh_of
   use gfb_petsc_session, only: rank_count
-  use gfb_scene_case, only: is_bearing
   use gfb_bearing_plan, only: plan_bearing
   use gfb_foil_plan, only: plan_foil
   use gfb_study, only: study_type
@@ -40,7 +39,7 @@ contains
     integer :: rows
 
     silent%active = .false.
-    if (is_bearing(scene%general%analysis)) then
+    if (scene%general%analysis%has_film) then
       reduced = .not. scene%model%foil%has_shell_bumps .or. scene%model%reduction == reduction_guyan
       call plan_bearing(scene, silent, plan)
       call divide_bearing(scene, film_mesh_of(scene, plan), ranks, division, error)
@@ -52,7 +51,7 @@ contains
     end if
     if (allocated(error)) return
     call show_shares(division, reduced, log)
-    if (is_bearing(scene%general%analysis) .and. .not. scene%model%foil%has_shell_bumps) then
+    if (scene%general%analysis%has_film .and. .not. scene%model%foil%has_shell_bumps) then
       call log%line('beams, if any, are the first rank''s')
     end if
   end subroutine show_partition

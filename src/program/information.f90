@@ -11,15 +11,27 @@ module gfb_information
   use gfb_provenance, only: version_text
   use gfb_case_keys, only: case_keys_type
   use gfb_scene, only: scene_type, read_groups
-  use gfb_scene_case, only: analysis_words
+  use gfb_analysis_row, only: analysis_rows, analysis_examples, analysis_example_type, &
+                              analysis_equilibrium
   implicit none (type, external)
   private
   public :: information
 
   !> Of `--template`, beside the analyses: an equilibrium of a thrust bearing.
   character(len=*), parameter :: thrust_template = 'thrust'
-  character(len=*), parameter :: template_words(*) = [analysis_words, [character(len= &
-                                 len(analysis_words)) :: thrust_template]]
+  type(analysis_example_type), parameter :: thrust_example = analysis_example_type( &
+    ' shaft_contact sweep sensitivity accuracy ', &
+    "&bearing kind='thrust' outer_radius=50.0e-3 inner_radius=25.0e-3 / "// &
+    '&pads count=6 arc=0.785 / &ramp part=0.5 height=20.0e-6 / '// &
+    '&gas viscosity=1.85e-5 ambient_pressure=1.01325e5 / '// &
+    '&operation speed_rpm=40000.0 axial_load=150.0 / '// &
+    "&model foil='elastic_foundation' foundation_stiffness=10.0e9 "// &
+    "foundation_pressure='radial_mean' / &shaft_contact roughness=0.5e-6 pressure=10.0e6 / "// &
+    "&sweep parameter='axial_load' values=150.0, 170.0, 190.0 / "// &
+    "&sensitivity quantity='axial_gap' parameters='ramp%height', 'gas%viscosity' "// &
+    "tolerances=1.0e-6, 2.0e-7 / &accuracy quantity='axial_gap' /")
+  character(len=*), parameter :: template_words(*) = [analysis_rows%word, [character(len= &
+                                 len(analysis_rows%word)) :: thrust_template]]
   integer, parameter :: comment_column = 42, longest_line = 120 !! of a template
   character(len=1), parameter :: next = new_line('a')
   integer, parameter :: longest_name = 64
@@ -146,17 +158,28 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why there is none
     type(case_keys_type) :: keys
     type(scene_type) :: scene
-    character(len=:), allocatable :: hint
+    type(analysis_example_type) :: example
+    character(len=:), allocatable :: hint, word
+    integer :: number
 
     words = ''
-    if (all(template_words /= analysis)) then
+    number = findloc(template_words, analysis, 1)
+    if (number == 0) then
       hint = did_you_mean(nearest_word(analysis, template_words))
       if (hint == '') hint = '.'
       call fail(error, 'gfb: --template '//analysis//': there is no such analysis'//hint// &
                 ' The analyses are '//join(template_words, ', '))
       return
     end if
-    call keys%open_text(example(analysis), 'template')
+    if (number <= size(analysis_rows)) then
+      word = trim(analysis)
+      example = analysis_examples(number)
+    else
+      word = trim(analysis_equilibrium%word)
+      example = thrust_example
+    end if
+    call keys%open_text("&scene title='my first case' analysis='"//word//"' /"// &
+                        trim(example%text), 'template')
     call read_groups(keys, scene)
     words = '! A case file of gfb, written by gfb --template. It can be run as it is. SI '// &
             'units.'//next// &
@@ -165,13 +188,13 @@ contains
             '! The same holds for groups in comments. gfb --check CASE.nml tells of '// &
             'mistakes,'//next// &
             '! gfb --explain KEY of a key.'//next// &
-            written(keys%book%keys(:keys%book%count), offered(analysis))
+            written(keys%book%keys(:keys%book%count), example)
   end subroutine template_text
 
   !> The keys as a case file; the groups that are only offered stand in comments.
-  pure function written(met, offer) result(words)
+  pure function written(met, example) result(words)
     type(key_type), intent(in) :: met(:)
-    character(len=*), intent(in) :: offer !! groups between blanks
+    type(analysis_example_type), intent(in) :: example
     character(len=:), allocatable :: words
     character(len=:), allocatable :: group, before
     integer :: i
@@ -184,7 +207,7 @@ contains
       if (met(i)%group /= group) then
         if (group /= '') words = words//before//'/'//next
         group = trim(met(i)%group)
-        before = trim(merge('! ', '  ', index(offer, ' '//group//' ') > 0))
+        before = trim(merge('! ', '  ', example%offers(group)))
         words = words//next
         if (before /= '') words = words//'! Where it is wanted:'//next
         words = words//before//'&'//group//next
@@ -240,128 +263,4 @@ contains
       words = words//' (default: '//plain_text(one%shown_default)//')'
     end if
   end function comment
-
-  !> The groups that stand in a template's comments, with values that fit.
-  pure function offered(analysis) result(groups)
-    character(len=*), intent(in) :: analysis
-    character(len=:), allocatable :: groups
-
-    select case (analysis)
-    case (thrust_template)
-      groups = ' shaft_contact sweep sensitivity accuracy '
-    case ('strip')
-      groups = ' accuracy '
-    case ('modes')
-      groups = ' '
-    case ('linear_dynamics')
-      groups = ' pads bore thermal shaft_contact sweep rotor '
-    case ('lift_off') ! which needs asperities
-      groups = ' pads bore thermal sweep accuracy sample '
-    case ('transient')
-      groups = ' pads bore thermal shaft_contact '
-    case ('periodic')
-      groups = ' pads bore shaft_contact '
-    case ('load_capacity', 'misalignment_allowance')
-      groups = ' pads bore thermal shaft_contact sweep accuracy sample '
-    case default
-      groups = ' pads bore thermal shaft_contact sweep sensitivity accuracy sample '
-    end select
-  end function offered
-
-  !> The values that a template begins with: those of `inputs/`.
-  pure function example(analysis) result(words)
-    character(len=*), intent(in) :: analysis
-    character(len=:), allocatable :: words
-
-    words = "&scene title='my first case' analysis='"//trim(analysis)//"' /"
-    select case (analysis)
-    case (thrust_template)
-      words = "&scene title='my first case' analysis='equilibrium' / &bearing kind='thrust' "// &
-              'outer_radius=50.0e-3 inner_radius=25.0e-3 / &pads count=6 arc=0.785 / '// &
-              '&ramp part=0.5 height=20.0e-6 / &gas viscosity=1.85e-5 '// &
-              'ambient_pressure=1.01325e5 / &operation speed_rpm=40000.0 axial_load=150.0 / '// &
-              "&model foil='elastic_foundation' foundation_stiffness=10.0e9 "// &
-              "foundation_pressure='radial_mean' / "// &
-              '&shaft_contact roughness=0.5e-6 pressure=10.0e6 / '// &
-              "&sweep parameter='axial_load' values=150.0, 170.0, 190.0 / "// &
-              "&sensitivity quantity='axial_gap' parameters='ramp%height', 'gas%viscosity' "// &
-              "tolerances=1.0e-6, 2.0e-7 / &accuracy quantity='axial_gap' /"
-    case ('strip')
-      words = words//bumps(10)//"width=38.1e-3 fixed_edge='leading' / "// &
-              '&contact friction_sleeve=0.1 / '// &
-              "&strip_load kind='crest_pressure' pressure=0.2e6 steps_up=10 / "// &
-              "&accuracy quantity='maximum_deflection' /"
-    case ('modes')
-      words = words//bumps(4)//"density=8440.0 width=38.1e-3 fixed_edge='leading' / "// &
-              "&modes part='strip' count=6 /"
-    case default
-      words = words//'&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 / '// &
-              '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 / &pads preload=0.1 / '// &
-              '&bore waves=3 wave_amplitude=1.0e-6 / '// &
-              '&shaft_contact roughness=0.5e-6 pressure=10.0e6 / '
-      if (analysis == 'periodic') then ! contacts must not rub
-        words = words//"&model foil='elastic_foundation' foundation_stiffness=4.8243e9 / "// &
-                '&mesh circumferential_elements=48 axial_elements=6 / '// &
-                '&operation speed_rpm=30000.0 load=-60.0, 0.0 / &rotor mass=1.5 / '// &
-                '&periodic steps_per_turn=40 / &unbalance unbalance=1.5e-6 / '// &
-                '&foil_damping foundation_damping=3.0e5 /'
-      else
-        words = words//bearing_example(analysis)
-      end if
-    end select
-  end function example
-
-  !> The same of a bearing of beams.
-  pure function bearing_example(analysis) result(words)
-    character(len=*), intent(in) :: analysis
-    character(len=:), allocatable :: words
-    character(len=:), allocatable :: sweep
-
-    words = '&top_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
-            "fixed_edge='trailing' / "//bumps(26)//"fixed_edge='trailing' "// &
-            "fixed_line='half_flat' / &contact friction_top=0.1 friction_sleeve=0.1 / "// &
-            "&model foil='beam' / &operation speed_rpm=30000.0 "
-    if (analysis == 'fixed_position') then
-      words = words//'eccentricity=30.0e-6, 9.0e-6 /'
-    else
-      words = words//'load=-100.0, 0.0 /'
-    end if
-    sweep = "&sweep parameter='load' values=100.0, 90.0, 80.0 /"
-    select case (analysis)
-    case ('linear_dynamics')
-      words = words//sweep//'&dynamics frequency_ratios=0.5, 1.0 / &rotor mass=1.0 /'
-    case ('transient')
-      words = words//'&rotor mass=1.0 / &transient turns=0.2 / &unbalance unbalance=2.0e-6 /'
-    case ('load_capacity')
-      words = words//"&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 / "// &
-              "&capacity smallest_gap=4.0e-6 / &accuracy quantity='load_capacity' /"
-    case ('lift_off')
-      words = words//sweep// &
-              "&capacity contact_part=0.01 / &accuracy quantity='lift_off_speed_rpm' /"
-    case ('misalignment_allowance')
-      words = words//sweep// &
-              "&capacity smallest_gap=4.0e-6 / &accuracy quantity='misalignment_allowance' /"
-    case default
-      if (analysis == 'fixed_position') sweep = "&sweep parameter='eccentricity_x' "// &
-                                                'values=30.0e-6, 29.0e-6, 28.0e-6 /'
-      words = words//sweep//"&sensitivity quantity='minimum_gap' "// &
-              "parameters='bearing%clearance', 'gas%viscosity' tolerances=1.0e-6, 2.0e-7 / "// &
-              "&accuracy quantity='minimum_gap' /"
-    end select
-    if (index(offered(analysis), ' sample ') > 0) words = words//'&sample count=100 /'
-    if (index(offered(analysis), ' thermal ') == 0) return
-    words = words//' &thermal shaft_conductance=0.3 sleeve_conductance=1.0 '// &
-            'bump_conductance=190.0 shaft_expansion=12.0e-6 sleeve_expansion=12.0e-6 /'
-  end function bearing_example
-
-  !> The bump foil of [Gu2020], case 1, but for its fixed edge.
-  pure function bumps(number) result(words)
-    integer, intent(in) :: number !! of bumps
-    character(len=:), allocatable :: words
-    character(len=8) :: digits
-
-    write (digits, '(i0)') number
-    words = '&bump_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
-            'half_length=1.778e-3 height=0.508e-3 pitch=4.572e-3 bumps='//trim(digits)//' '
-  end function bumps
 end module gfb_information

@@ -2,7 +2,6 @@
 module gfb_studies
   use gfb_errors, only: error_type, fail
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_strip, analysis_modes, is_bearing
   use gfb_quantity, only: quantity_type
   use gfb_text, only: text
   use gfb_machine_memory, only: start_blas
@@ -41,9 +40,9 @@ contains
 
     if (branches) call check_branches(scene, error)
     if (allocated(error)) return
-    if (scene%general%analysis == analysis_strip) then
+    if (scene%general%analysis%loads_strip) then
       allocate (strip_study_type :: study)
-    else if (scene%general%analysis == analysis_modes) then
+    else if (scene%general%analysis%finds_modes) then
       allocate (modes_study_type :: study)
     else if (branches) then
       allocate (branches_study_type :: study)
@@ -78,12 +77,12 @@ contains
 
     why = ''
     associate (analysis => scene%general%analysis)
-      if (is_bearing(analysis) .and. &
-          .not. (analysis == analysis_equilibrium .and. scene%model%foil%has_bumps)) then
+      if (analysis%has_film .and. &
+          .not. (analysis%floats .and. scene%model%foil%has_bumps)) then
         why = "--branches needs analysis = 'equilibrium' and foil = 'shell' or 'beam'"
       end if
     end associate
-    if (scene%capacity%question > 0) then
+    if (scene%capacity%limit > 0) then
       why = "--branches needs analysis = 'equilibrium': a limit is looked for on one branch"
     end if
     if (scene%periodic%present) why = "--branches has no use with analysis = 'periodic'"

@@ -5,7 +5,6 @@ module gfb_bearing_record
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity
   use gfb_result_names, only: add_result, result_unit, result_meaning, is_of_heat
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_words
   use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_eccentricity_y, &
                             sweep_keys, parameter_words
   use gfb_bearing_system, only: bearing_system_type
@@ -19,7 +18,7 @@ module gfb_bearing_record
   use gfb_tilt_response, only: tilt_response_type, row_quantities, visit_response
   implicit none (type, external)
   private
-  public :: add_row, analysis_name, sweep_name, sweep_unit
+  public :: add_row, sweep_name, sweep_unit
   public :: visit_record
 
   !> Answers of a scene, in the order in which they were found.
@@ -70,8 +69,9 @@ contains
     if (present(fold)) call add_result(row%quantity, 'fold', fold)
     if (present(branch)) call add_result(row%quantity, 'branch', branch)
     call add_quantity(row%quantity, answer_quantities( &
-                      analysis_name(scene), converged, bearing_answer(bearing, stresses=.true.), &
-                      bearing%clearance, bearing%force_scale()))
+                      trim(scene%general%asked%word), converged, &
+                      bearing_answer(bearing, stresses=.true.), bearing%clearance, &
+                      bearing%force_scale()))
     call add_quantity(row%quantity, row_quantities(record%tilted))
     if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)
     call add_counts(newton%iterations, newton%factorizations, row%quantity)
@@ -80,19 +80,6 @@ contains
     call record_foil_contacts(bearing, size(record%history), &
                               max(1, size(scene%sweep%values)), record%contacts)
   end subroutine add_row
-
-  !> The word for the scene's analysis.
-  pure function analysis_name(scene) result(name)
-    type(scene_type), intent(in) :: scene !! what is asked for
-    character(len=:), allocatable :: name
-
-    name = 'fixed_position'
-    if (scene%general%analysis == analysis_equilibrium) name = 'equilibrium'
-    if (scene%dynamics%present) name = 'linear_dynamics'
-    if (scene%transient%present) name = 'transient'
-    if (scene%periodic%present) name = 'periodic'
-    if (scene%capacity%question > 0) name = trim(analysis_words(scene%capacity%question))
-  end function analysis_name
 
   !> The word for what a sweep changes.
   pure function sweep_name(sweep) result(name)

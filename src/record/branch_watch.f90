@@ -17,7 +17,6 @@ module gfb_branch_watch
   use gfb_quantity, only: number_in
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium
   use gfb_sweep_case, only: parameter_words, sweep_keys, sweep_load_angle
   use gfb_foil_cases, only: top_foil_trailing
   use gfb_case_file, only: history_row_type
@@ -49,13 +48,13 @@ contains
     logical :: steps_alike
 
     why = ''
-    if (scene%general%analysis /= analysis_equilibrium) return
+    if (.not. scene%general%analysis%floats) return
     if (.not. scene%model%foil%has_bumps) return
     if (scene%top_foil%fixed_edge /= top_foil_trailing) return
     if (determinant_changed(history)) why = 'the determinant of the matrix changed its sign'
     ! Neighbouring limits lie at other loads, speeds or tilts, some of them at a branch's end.
     steps_alike = .not. (in_short_steps .or. scene%sweep%turn_folds .or. &
-                         scene%capacity%question > 0)
+                         scene%capacity%limit > 0)
     if (why == '' .and. steps_alike) then
       why = move_words(scene, history)
     end if

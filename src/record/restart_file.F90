@@ -16,7 +16,6 @@ module gfb_restart_file
   use gfb_c_library, only: remove_file
   use gfb_petsc_session, only: this_rank, rank_count, any_rank, share_failure, wall_time
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_strip
   use gfb_case_file, only: write_quantities
   use gfb_archive, only: archive_type, archive_field_type, open_archive
   use gfb_result_file, only: result_file_type, open_result_file, close_result_file, &
@@ -241,7 +240,7 @@ contains
     integer :: steps(2)
 
     steps = [1, 0]
-    if (scene%general%analysis == analysis_strip) then
+    if (scene%general%analysis%loads_strip) then
       steps(2) = scene%strip_load%steps_up + scene%strip_load%steps_down
     else if (scene%transient%present) then
       steps(2) = huge(steps)

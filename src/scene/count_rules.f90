@@ -9,7 +9,6 @@ module gfb_count_rules
   use gfb_case_keys, only: case_keys_type
   use gfb_result_table, only: bearing, strip
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_strip, is_bearing, analysis_modes
   use gfb_text, only: text
   use gfb_bearing_case, only: pad_length
   use gfb_mesh_case, only: most_a_side
@@ -195,9 +194,9 @@ contains
     type(scene_type), intent(in) :: scene
 
     associate (analysis => scene%general%analysis)
-      meshes = analysis == analysis_strip .or. &
-               (is_bearing(analysis) .and. scene%model%foil%has_bumps) .or. &
-               (analysis == analysis_modes .and. scene%modes%part == part_strip)
+      meshes = analysis%loads_strip .or. &
+               (analysis%has_film .and. scene%model%foil%has_bumps) .or. &
+               (analysis%finds_modes .and. scene%modes%part == part_strip)
     end associate
   end function meshes_bumps
 
@@ -210,7 +209,7 @@ contains
     if (.not. meshes_bumps(scene)) return
     pieces = 3.0_wp*real(scene%bump_foil%bumps, wp)*real(scene%bump_foil%strips, wp)*pads(scene)
     call check('modes', 'substructure_modes', scene%modes%substructure_modes, &
-               scene%general%analysis == analysis_modes)
+               scene%general%analysis%finds_modes)
     call check('foil_damping', 'foil_modes', scene%foil_damping%foil_modes, &
                scene%dynamics%present .or. scene%transient%present)
 

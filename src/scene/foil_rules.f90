@@ -15,7 +15,6 @@ module gfb_foil_rules
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_study_cases, only: part_strip, part_top_foil, part_flat, quantity_words, asked_name, &
                              top_foil_stress, bump_foil_stress
-  use gfb_scene_case, only: analysis_modes, analysis_strip, is_bearing
   use gfb_shape_rules, only: thin, thin_in_bump, low_in_pad
   use gfb_strip_load_case, only: load_plates, support_held
   implicit none (type, external)
@@ -54,7 +53,7 @@ contains
     character(len=:), allocatable :: name
 
     associate (derived => scene%sensitivity%quantity, foil => scene%model%foil)
-      if (.not. is_bearing(scene%general%analysis) .or. .not. foil%is_known()) return
+      if (.not. scene%general%analysis%has_film .or. .not. foil%is_known()) return
       call refuse('sensitivity', derived(top_foil_stress), derived(bump_foil_stress))
       if (scene%accuracy%quantity == 0) return
       name = asked_name(scene%accuracy)
@@ -78,7 +77,7 @@ contains
   !> Whether the scene is a bearing whose foils are known, and have no meshes of their own.
   pure logical function lacks_bumps(scene) result(lacks)
     type(scene_type), intent(in) :: scene
-    lacks = is_bearing(scene%general%analysis) .and. scene%model%foil%is_known() .and. &
+    lacks = scene%general%analysis%has_film .and. scene%model%foil%is_known() .and. &
             .not. scene%model%foil%has_bumps
   end function lacks_bumps
 
@@ -90,9 +89,9 @@ contains
     logical :: whole !! the whole strip is meshed
 
     associate (foil => scene%bump_foil, part => scene%modes%part, &
-               modes => scene%general%analysis == analysis_modes)
-      whole = scene%general%analysis == analysis_strip .or. &
-              (is_bearing(scene%general%analysis) .and. scene%model%foil%has_bumps)
+               modes => scene%general%analysis%finds_modes)
+      whole = scene%general%analysis%loads_strip .or. &
+              (scene%general%analysis%has_film .and. scene%model%foil%has_bumps)
       if (.not. (whole .or. modes) .or. (modes .and. part == part_top_foil)) return
       whole = whole .or. part == part_strip
       ! A pitch that is shorter is complained about elsewhere.
@@ -130,7 +129,7 @@ contains
 
     associate (foil => scene%bump_foil, bearing => scene%bearing, &
                elements => scene%mesh%axial_elements)
-      meshed = is_bearing(scene%general%analysis) .and. scene%model%foil%has_bumps
+      meshed = scene%general%analysis%has_film .and. scene%model%foil%has_bumps
       call keys%rule(group, 'fixed_edge', meshed .and. foil%fixed_edge == fixed_edge_none, &
                      "must be 'leading' or 'trailing' in a bearing")
       if (meshed) call keys%rule('bearing', 'leading_edge_condition', &
@@ -140,7 +139,7 @@ contains
       call keys%rule(group, 'width', meshed .and. min(bearing%length, foil%width) > 0.0_wp .and. &
                      abs(foil%width - bearing%length) > rounding*bearing%length, &
                      'must be the length of the bearing, '//text(bearing%length)//' m')
-      plates = scene%general%analysis == analysis_strip .and. scene%strip_load%kind == load_plates
+      plates = scene%general%analysis%loads_strip .and. scene%strip_load%kind == load_plates
       forced = keys%meant('strip_load', 'maximum_force')
       moved = keys%meant('strip_load', 'maximum_displacement')
       call keys%rule('strip_load', 'maximum_displacement', plates .and. forced .and. moved, &
@@ -165,17 +164,17 @@ contains
 
     associate (analysis => scene%general%analysis, foil => scene%bump_foil)
       call keys%refuse(group, gaps, lacks_bumps(scene), needs_meshes//'no other foil has crests')
-      call keys%refuse(group, gaps, analysis == analysis_strip .and. &
+      call keys%refuse(group, gaps, analysis%loads_strip .and. &
                        scene%strip_load%kind /= load_plates, "needs kind = 'plates' in "// &
                        '&strip_load: a force that is given acts on its crest wherever that is')
-      call keys%refuse(group, gaps, analysis == analysis_modes, 'needs a bearing or a strip '// &
+      call keys%refuse(group, gaps, analysis%finds_modes, 'needs a bearing or a strip '// &
                        'between plates: modes are those of foils that touch nothing')
       if (.not. allocated(foil%corner_gap)) return
       if (lacks_bumps(scene)) then
         words = needs_meshes//'no other foil has corners'
-      else if (analysis == analysis_modes) then
+      else if (analysis%finds_modes) then
         words = 'needs a bearing or a strip under load: modes are those of foils that touch nothing'
-      else if (analysis == analysis_strip .and. scene%strip_load%support == support_held) then
+      else if (analysis%loads_strip .and. scene%strip_load%support == support_held) then
         words = "needs support = 'contact' in &strip_load: corner lines that are held cannot move"
       else if (any(foil%pitch%each(foil%bumps) <= &
                    2.0_wp*foil%half_length%each(foil%bumps)*(1.0_wp + rounding)) .and. &
@@ -203,14 +202,14 @@ contains
 
     several = scene%bump_foil%strips > 1
     associate (part => scene%modes%part)
-      modes = scene%general%analysis == analysis_modes .and. part > 0
+      modes = scene%general%analysis%finds_modes .and. part > 0
       call keys%rule(group, 'strips', several .and. lacks_bumps(scene) .and. .not. &
                      scene%model%foil%has_top_foil, needs_meshes// &
                      'no other foil but a plate has strips')
       call keys%rule(group, 'strips', several .and. modes, &
                      'must be 1 for modes: each strip has its own')
-      call keys%rule('mesh', 'edge_refinement', several .and. scene%general%analysis == &
-                     analysis_strip .and. scene%mesh%edge_refinement > 1.0_wp, &
+      call keys%rule('mesh', 'edge_refinement', several .and. &
+                     scene%general%analysis%loads_strip .and. scene%mesh%edge_refinement > 1.0_wp, &
                      'must be 1 for strips side by side: each has equal rows')
       call keys%refuse(group, sizes, lacks_bumps(scene), needs_meshes//'no other foil has bumps')
       call keys%refuse(group, sizes, modes .and. all(part /= [part_strip, part_top_foil]), &
@@ -251,7 +250,7 @@ contains
     logical :: bearing, partitioned
 
     clearance = scene%bearing%clearance
-    bearing = is_bearing(scene%general%analysis)
+    bearing = scene%general%analysis%has_film
     partitioned = scene%model%coupling == coupling_partitioned
     if (scene%bearing%interference > 0.0_wp) then
       if (.not. bearing) then
@@ -325,7 +324,7 @@ contains
     type(scene_type), intent(in) :: scene
 
     differ = scene%bump_foil%strips > 1 .and. scene%bump_foil%random%deviation > 0.0_wp
-    if (is_bearing(scene%general%analysis)) differ = differ .and. .not. scene%model%foil%is_planar
+    if (scene%general%analysis%has_film) differ = differ .and. .not. scene%model%foil%is_planar
   end function heights_differ
 
   !> What of the scene knows strips of one kind only.
@@ -334,14 +333,14 @@ contains
     type(scene_type), intent(in) :: scene
 
     associate (foil => scene%bump_foil)
-      if (is_bearing(scene%general%analysis) .and. scene%model%foil%is_planar) then
+      if (scene%general%analysis%has_film .and. scene%model%foil%is_planar) then
         call alike(foil%pitch)
         call alike(foil%half_length)
         call alike(foil%height)
         call alike(foil%thickness)
         call alike(foil%offset)
       end if
-      call keys%rule(group, 'strip_pitch', scene%general%analysis == analysis_strip .and. &
+      call keys%rule(group, 'strip_pitch', scene%general%analysis%loads_strip .and. &
                      scene%strip_load%kind /= load_plates .and. allocated(foil%pitch%by_strip), &
                      "must be alike for all strips, or needs kind = 'plates' in &strip_load: "// &
                      'the force of a crest is shared evenly')

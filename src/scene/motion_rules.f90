@@ -11,7 +11,6 @@ module gfb_motion_rules
                             springs_two_sided
   use gfb_operation_case, only: angular_speed
   use gfb_scene, only: scene_type, foil_density
-  use gfb_scene_case, only: analysis_equilibrium
   use gfb_study_cases, only: derives_whirl
   use gfb_sweep_case, only: sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
@@ -259,7 +258,7 @@ contains
     character(len=*), parameter :: needs_force = 'needs a load in &operation, and a mass in &rotor'
     logical :: tilts
 
-    if (scene%general%analysis /= analysis_equilibrium) then
+    if (.not. scene%general%analysis%floats) then
       call keys%rule(group, 'orbit_radius', keys%meant(group, 'orbit_radius') .neqv. &
                      keys%meant(group, 'orbit_frequency'), 'and orbit_frequency need each other')
       call keys%refuse('rotor', 'mass', .true., 'has no use where the place of the shaft is given')

@@ -22,8 +22,8 @@ module gfb_scene
   use gfb_foil_row, only: foil_row_type, foil_unknown
   use gfb_model_case, only: model_case_type, read_model_case
   use gfb_operation_case, only: operation_case_type, read_operation_case, size_of_gap
-  use gfb_scene_case, only: scene_case_type, needs_type, analysis_strip, read_scene_case, &
-                            is_bearing, misplaced_group, analysis_modes, analysis_misalignment
+  use gfb_analysis_row, only: analysis_row_type, limit_tilt
+  use gfb_scene_case, only: scene_case_type, needs_type, read_scene_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
   use gfb_thermal_case, only: thermal_case_type, read_thermal_case
@@ -77,27 +77,26 @@ contains
     type(scene_type), intent(inout) :: scene !! gets what they say
     type(needs_type) :: needs !! of the analysis
     character(len=:), allocatable :: misplaced !! why `&bearing` does not fit
-    integer :: state !! analysis that finds it, where vibrations about a state are asked for
+    type(analysis_row_type) :: state !! that finds it, where vibrations about a state are asked for
 
     call read_scene_case(keys, scene%general)
-    call read_modes_case(keys, scene%modes, scene%general%analysis)
-    state = analysis_of_state(scene%general%analysis, keys%holds('operation', 'load') .or. &
+    call read_modes_case(keys, scene%modes, scene%general%asked)
+    state = analysis_of_state(scene%general%asked, keys%holds('operation', 'load') .or. &
                               keys%holds('operation', 'axial_load'), &
                               keys%holds('operation', 'eccentricity') .or. &
                               keys%holds('operation', 'axial_gap'))
-    needs = needs_of(scene%general%analysis, scene%modes%part, foil_unknown)
-    associate (analysis => scene%general%analysis, part => scene%modes%part)
-      misplaced = misplaced_group(analysis, is_bearing(analysis))
+    needs = needs_of(scene%general%asked, scene%modes%part, foil_unknown)
+    associate (analysis => scene%general%asked, part => scene%modes%part)
+      misplaced = analysis%refusal('bearing')
       ! Foils alone have a pad only where the top foil vibrates.
-      if (analysis == analysis_modes) misplaced = unless(any(part == [0, part_top_foil]), &
+      if (analysis%finds_modes) misplaced = unless(any(part == [0, part_top_foil]), &
         "needs part = 'top_foil' in &modes: no other part has a pad")
       call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, misplaced)
       call read_model_case(keys, scene%model, scene%bearing%is_thrust(), analysis)
       needs = needs_of(analysis, part, scene%model%foil)
-      misplaced = misplaced_group(analysis, is_bearing(analysis))
-      call read_pads_case(keys, scene%bearing, misplaced)
-      call read_ramp_case(keys, scene%bearing, misplaced)
-      call read_bore_case(keys, scene%bore, scene%bearing, misplaced)
+      call read_pads_case(keys, scene%bearing, analysis%refusal('pads'))
+      call read_ramp_case(keys, scene%bearing, analysis%refusal('ramp'))
+      call read_bore_case(keys, scene%bore, scene%bearing, analysis%refusal('bore'))
       call read_gas_case(keys, scene%gas, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, scene%bearing, state, &
@@ -113,7 +112,7 @@ contains
       call read_unbalance_case(keys, scene%unbalance, analysis)
       call read_foil_damping_case(keys, scene%foil_damping, analysis)
       call read_capacity_case(keys, scene%capacity, analysis)
-      scene%operation%tilt_is_sought = analysis == analysis_misalignment
+      scene%operation%tilt_is_sought = analysis%limit == limit_tilt
       ! A mass that whirls moves across the axis.
       scene%dynamics%stability = scene%dynamics%stability .and. .not. scene%bearing%is_thrust()
       call read_sweep_case(keys, scene%sweep, analysis)
@@ -130,8 +129,7 @@ contains
       call read_output_case(keys, scene%output)
       call read_sensitivity_case(keys, scene%sensitivity, analysis)
       call read_accuracy_case(keys, scene%accuracy, analysis)
-      call read_sample_case(keys, scene%sample, &
-                            misplaced_group(analysis, analysis /= analysis_modes))
+      call read_sample_case(keys, scene%sample, analysis%refusal('sample'))
     end associate
     scene%general%analysis = state
   end subroutine read_groups
@@ -146,19 +144,20 @@ contains
 
   !> What an analysis needs, of foils by a model, or of modes of a part.
   pure function needs_of(analysis, part, foil) result(needs)
-    integer, intent(in) :: analysis, part !! 0 where they are not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
+    integer, intent(in) :: part !! 0 where it is not known
     type(foil_row_type), intent(in) :: foil !! the model of the foils
     type(needs_type) :: needs
     logical :: modes, meshed
 
-    modes = analysis == analysis_modes .and. part /= 0
-    meshed = is_bearing(analysis) .and. foil%has_bumps
-    needs%film = is_bearing(analysis)
+    modes = analysis%finds_modes .and. part /= 0
+    meshed = analysis%has_film .and. foil%has_bumps
+    needs%film = analysis%has_film
     needs%top_mass = modes .and. part == part_top_foil
     needs%pad = needs%film .or. needs%top_mass
     needs%top_foil = needs%top_mass .or. (needs%film .and. foil%has_top_foil)
     needs%mass = modes .and. part /= part_top_foil
-    needs%width = needs%mass .or. analysis == analysis_strip
+    needs%width = needs%mass .or. analysis%loads_strip
     needs%bumps = needs%width .or. meshed
     needs%pitch = needs%width .and. .not. (modes .and. any(part == [part_half_arc, part_arc]))
   end function needs_of

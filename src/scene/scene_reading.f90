@@ -8,7 +8,6 @@ module gfb_scene_reading
   use gfb_moved_keys, only: home_of
   use gfb_model_case, only: coupling_partitioned
   use gfb_scene, only: scene_type, read_groups
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_study_cases, only: parameter_type
   use gfb_sweep_case, only: swept_key_type, swept_keys, sweep_keys, every_element, named_keys
   use gfb_text, only: text
@@ -185,7 +184,7 @@ contains
     case ('thermal')
       if (.not. scene%thermal%present) problem = 'the file has no group &thermal'
     case ('capacity')
-      if (scene%capacity%question == 0) problem = 'no limit is looked for'
+      if (scene%capacity%limit == 0) problem = 'no limit is looked for'
     case ('dynamics', 'foil_damping')
       if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
     case ('model')
@@ -220,7 +219,7 @@ contains
     logical :: held !! the shaft is, at the position that is given
 
     words = ''
-    held = scene%general%analysis == analysis_fixed_position
+    held = scene%general%analysis%holds
     select case (key)
     case ('speed_rpm')
       return
@@ -398,7 +397,7 @@ contains
       one%unit = 'N'
       value = [norm2(scene%operation%load)]
       problem = ''
-      if (scene%general%analysis /= analysis_equilibrium) then
+      if (.not. scene%general%analysis%floats) then
         problem = 'operation%load has no effect here: the position is given'
       end if
     else

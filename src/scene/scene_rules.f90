@@ -17,7 +17,6 @@ module gfb_scene_rules
   use gfb_foil_cases, only: missing_of_bumps
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_modes, is_bearing
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
   use gfb_study_cases, only: quantities_without_heat, quantities_of_rings, quantities_of_whirl
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
@@ -71,7 +70,7 @@ contains
                    any(scene%sensitivity%quantity(quantities_without_heat + 1:size( &
                    scene%sensitivity%quantity) - quantities_of_rings - quantities_of_whirl)), &
                    'names a result of heat, which needs &thermal')
-    if (.not. (scene%thermal%present .and. is_bearing(scene%general%analysis))) return
+    if (.not. (scene%thermal%present .and. scene%general%analysis%has_film)) return
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                    "must be 'monolithic' with &thermal")
     call keys%rule('model', 'half_width', scene%model%half_width == half_width_yes .and. &
@@ -216,14 +215,14 @@ contains
     logical :: rests
 
     associate (model => scene%model, sweep => scene%sweep, analysis => scene%general%analysis)
-      if (.not. scene%shaft_contact%present .or. .not. is_bearing(analysis)) return
+      if (.not. scene%shaft_contact%present .or. .not. analysis%has_film) return
       call keys%rule('model', 'foundation_pressure', model%has_local_springs(), 'must be '// &
                      "'axial_mean', of thrust bearings 'radial_mean', with &shaft_contact: "// &
                      'springs without unknowns of their own '// &
                      'feel the film alone')
       call keys%rule('model', 'coupling', model%coupling == coupling_partitioned, &
                      "must be 'monolithic' with &shaft_contact")
-      if (analysis /= analysis_equilibrium .or. .not. allocated(sweep%values)) return
+      if (.not. analysis%floats .or. .not. allocated(sweep%values)) return
       rests = .not. scene%operation%speed_rpm > 0.0_wp .and. keys%meant('operation', 'speed_rpm')
       if (sweep%parameter == sweep_speed) rests = any(.not. sweep%values > 0.0_wp)
       if (.not. rests) return
@@ -244,7 +243,7 @@ contains
       words = 'a foil that is not of shells'
     else if (scene%transient%present .or. scene%periodic%present) then
       words = 'a motion over time'
-    else if (scene%capacity%question /= 0) then
+    else if (scene%capacity%limit /= 0) then
       words = 'a search for a limit'
     else if (scene%model%coupling == coupling_partitioned) then
       words = "coupling = 'partitioned' in &model"
@@ -276,16 +275,16 @@ contains
                      'number of axial_elements in &mesh, not '//text(elements))
       call check_lifts('leading_edge_lift', size(scene%operation%leading_edge_lift))
       call check_lifts('leading_edge_lift_edge', size(scene%operation%leading_edge_lift_edge))
-      if (analysis == 0) return
-      bearing = is_bearing(analysis)
+      if (.not. analysis%is_known()) return
+      bearing = analysis%has_film
       call keys%rule('solver', 'stability', solver%stability .and. model%foil%is_known() .and. &
                      .not. bearing, 'needs a bearing: it is that of foils under a film')
       call keys%rule('solver', 'stability', solver%stability .and. model%foil%is_known() .and. &
                      bearing .and. .not. model%foil%has_bumps, &
                      needs_meshes//'nothing else moves by itself')
-      call keys%rule('solver', 'linear_solver', analysis == analysis_modes .and. &
+      call keys%rule('solver', 'linear_solver', analysis%finds_modes .and. &
                      solver%linear_solver /= linear_solver_direct, "must be 'direct' for modes")
-      iterative = analysis /= analysis_modes .and. solver%linear_solver == linear_solver_iterative
+      iterative = .not. analysis%finds_modes .and. solver%linear_solver == linear_solver_iterative
       factored = ''
       if (iterative .and. bearing) factored = what_factors_do(scene)
       call keys%rule('solver', 'linear_solver', factored /= '', "'iterative' has no factors, "// &
@@ -376,7 +375,7 @@ contains
       real(wp) :: approach !! [m]
 
       here = operation
-      if (scene%general%analysis == analysis_equilibrium) then
+      if (scene%general%analysis%floats) then
         if (scene%bearing%pads > 1 .or. scene%bearing%preload > 0.0_wp .or. &
             scene%bore%present .or. pad_angle(scene%bearing) < turn*(1.0_wp - rounding)) return
         here%eccentricity = 0.0_wp

@@ -9,9 +9,7 @@ module gfb_study_rules
   use gfb_result_names, only: is_of
   use gfb_result_table, only: bearing, strip
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, analysis_strip, &
-                            analysis_load_capacity, analysis_lift_off, analysis_misalignment, &
-                            analysis_words, is_bearing
+  use gfb_analysis_row, only: analysis_rows, limit_load, limit_speed, limit_tilt
   use gfb_sweep_case, only: sweep_load, sweep_speed, sweep_load_angle, sweep_tilt_x, &
                             sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
@@ -20,11 +18,6 @@ module gfb_study_rules
   public :: check_sweep, check_edge_lift, check_accuracy, check_capacity, is_unloaded
 
   character(len=*), parameter, public :: one_answer = 'needs a scene of one answer, without &sweep'
-  !> Results that are limits, and the analyses that look for them.
-  character(len=*), parameter :: limit_names(*) = &
-    [character(len=22) :: 'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance']
-  integer, parameter :: limits(*) = &
-    [analysis_load_capacity, analysis_lift_off, analysis_misalignment]
 
 contains
 
@@ -50,10 +43,10 @@ contains
                      '&contact: without friction nothing is remembered')
       if (sweep%turn_folds) call check_turn_folds(keys, scene)
       if (sweep%parameter == sweep_load_angle) call check_load_angles(keys, scene)
-      if (analysis == 0) return
-      floats = analysis == analysis_equilibrium .and. .not. sweep%hold_position
+      if (.not. analysis%is_known()) return
+      floats = analysis%floats .and. .not. sweep%hold_position
       call keys%rule('sweep', 'hold_position', sweep%hold_position .and. &
-                     analysis /= analysis_equilibrium, "needs analysis = 'equilibrium': it "// &
+                     .not. analysis%floats, "needs analysis = 'equilibrium': it "// &
                      'fixes the shaft at its equilibrium at &operation')
       select case (sweep%parameter)
       case (sweep_load, sweep_load_angle)
@@ -63,7 +56,7 @@ contains
                        'where it is swept: it gives '// &
                        merge('the direction', 'the magnitude', sweep%parameter == sweep_load))
       case (sweep_eccentricity_x, sweep_eccentricity_y)
-        call keys%rule('sweep', parameter, analysis /= analysis_fixed_position, &
+        call keys%rule('sweep', parameter, .not. analysis%holds, &
                        "needs analysis = 'fixed_position'")
       case (sweep_speed)
         if (floats .and. .not. scene%shaft_contact%present) then
@@ -133,8 +126,8 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=:), allocatable :: problem
 
-    if (scene%general%analysis == 0 .or. .not. scene%model%foil%is_known()) return
-    if (scene%general%analysis /= analysis_equilibrium) then
+    if (.not. scene%general%analysis%is_known() .or. .not. scene%model%foil%is_known()) return
+    if (.not. scene%general%analysis%floats) then
       problem = "needs analysis = 'equilibrium'"
     else if (.not. scene%model%foil%has_bumps) then
       problem = needs_meshes//'no other foil has an edge that lifts'
@@ -162,23 +155,22 @@ contains
 
     associate (analysis => scene%general%analysis, resumed => scene%output%restart_every)
       call keys%rule('output', 'restart_every', resumed /= 0 .and. &
-                     all(analysis /= [0, analysis_strip]) .and. .not. &
-                     (scene%sweep%present .or. scene%transient%present), 'needs a &sweep, or '// &
+                     analysis%is_known() .and. .not. (analysis%loads_strip .or. &
+                     scene%sweep%present .or. scene%transient%present), 'needs a &sweep, or '// &
                      "analysis = 'strip' or 'transient': nothing else has steps to resume from")
-      if (.not. scene%accuracy%present .or. analysis == 0) return
-      kind = merge(bearing, strip, is_bearing(analysis))
+      if (.not. (scene%accuracy%present .and. analysis%is_known())) return
+      kind = merge(bearing, strip, analysis%has_film)
       if (scene%accuracy%quantity > 0) then
         name = asked_name(scene%accuracy)
-        needed = findloc(limit_names == name, .true., 1)
-        if (needed > 0) needed = limits(needed)
+        needed = findloc(analysis_rows%limit_result == name, .true., 1)
         if (.not. is_of(name, kind)) then
           call keys%complain(group, key, 'is no number of this analysis')
         else
           call keys%rule(group, key, .not. scene%dynamics%present .and. &
                          any(name == of_vibrations), "needs analysis = 'linear_dynamics'")
         end if
-        call keys%rule(group, key, all(needed /= [0, scene%capacity%question]), &
-                       "needs analysis = '"//trim(analysis_words(max(1, needed)))//"'")
+        call keys%rule(group, key, all(needed /= [0, scene%general%asked%number]), &
+                       "needs analysis = '"//trim(analysis_rows(max(1, needed))%word)//"'")
       end if
       call keys%rule(group, key, scene%sweep%present, one_answer)
       call keys%rule(group, key, resumed > 0, 'is found on several meshes, which no restart '// &
@@ -192,16 +184,16 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=:), allocatable :: still
 
-    associate (asked => scene%capacity%question, smallest => scene%capacity%smallest_gap, &
+    associate (limit => scene%capacity%limit, smallest => scene%capacity%smallest_gap, &
                sweep => scene%sweep)
-      if (asked == 0) return
-      call keys%rule('operation', 'load', asked /= analysis_misalignment .and. &
+      if (limit == 0) return
+      call keys%rule('operation', 'load', limit /= limit_tilt .and. &
                      is_unloaded(scene), 'must not be zero: it gives the direction, and '// &
                      'asperities carry a part of it')
-      call keys%rule('scene', 'analysis', asked == analysis_lift_off .and. .not. &
+      call keys%rule('scene', 'analysis', limit == limit_speed .and. .not. &
                      scene%shaft_contact%present, &
                      "'lift_off' needs &shaft_contact: only asperities lift off")
-      call keys%rule('capacity', 'smallest_gap', asked /= analysis_lift_off .and. &
+      call keys%rule('capacity', 'smallest_gap', limit /= limit_speed .and. &
                      smallest > 0.0_wp .and. smallest <= scene%solver%touch_down_gap, 'must be '// &
                      'more than touch_down_gap in &solver, '//text(scene%solver%touch_down_gap)// &
                      ' m, where paths end')
@@ -210,8 +202,8 @@ contains
                      'follow no path to it')
       ! A lift-off speed is looked for by doubling and halving, a load capacity is told over the
       ! speed; other rules see to a shaft without asperities, and to speeds below zero.
-      if (asked /= analysis_misalignment .and. scene%shaft_contact%present) then
-        still = "must be positive with analysis = '"//trim(analysis_words(asked))//"'"
+      if (limit /= limit_tilt .and. scene%shaft_contact%present) then
+        still = "must be positive with analysis = '"//trim(scene%general%asked%word)//"'"
         call keys%refuse('operation', 'speed_rpm', &
                          .not. abs(scene%operation%speed_rpm) > 0.0_wp, still)
         if (sweep%present .and. sweep%parameter == sweep_speed) call check_zeros(keys, scene, still)
@@ -226,11 +218,11 @@ contains
     type(scene_type), intent(in) :: scene
     logical :: same
 
-    associate (sweep => scene%sweep, asked => scene%capacity%question)
-      select case (asked)
-      case (analysis_load_capacity)
+    associate (sweep => scene%sweep)
+      select case (scene%capacity%limit)
+      case (limit_load)
         same = sweep%parameter == sweep_load
-      case (analysis_lift_off)
+      case (limit_speed)
         if (sweep%parameter == sweep_load) then
           call check_zeros(keys, scene, 'must not be zero: asperities carry a part of the load')
         end if
@@ -240,7 +232,7 @@ contains
         same = sweep%parameter == sweep_tilt_x - 1 + scene%capacity%tilt_axis
       end select
       call keys%rule('sweep', 'parameter', same, "is what analysis = '"// &
-                     trim(analysis_words(asked))//"' looks for: sweep another one")
+                     trim(scene%general%asked%word)//"' looks for: sweep another one")
       call keys%rule('sweep', 'hold_position', sweep%hold_position, &
                      'must be .false. where a limit is looked for: the shaft floats')
       call keys%rule('sweep', 'turn_folds', sweep%turn_folds, &

@@ -10,7 +10,6 @@ module gfb_thrust_rules
   use gfb_model_case, only: foundation_pressure_local
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_study_cases, only: quantities_of_rings, quantities_of_whirl
   use gfb_sweep_case, only: operation_at, sweep_keys, sweep_axial_gap, &
                             sweep_axial_load, sweep_tilt_x, sweep_tilt_y, sweep_speed
@@ -42,10 +41,10 @@ contains
                      sweep_tilt_x, sweep_tilt_y, sweep_axial_load, sweep_axial_gap]), &
                      needs_journal//': axial_load and axial_gap stand for load and eccentricity')
       call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_load .and. &
-                     scene%general%analysis == analysis_fixed_position, &
+                     scene%general%analysis%holds, &
                      'needs axial_load in &operation: the gap is held')
       call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_gap .and. &
-                     scene%general%analysis /= analysis_fixed_position, &
+                     .not. scene%general%analysis%holds, &
                      'needs a gap that is held: axial_gap in &operation without axial_load')
       call check_play(keys, scene)
       call keys%rule('sweep', 'parameter', scene%operation%moment_given .and. any( &
@@ -58,7 +57,7 @@ contains
                      "'elastic_foundation', 'plate' or 'shell' with kind = 'thrust' in &bearing")
       call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. &
                      any(asked(before + quantities_of_rings + 1:)) .or. asked(before + 1) .and. &
-                     .not. scene%general%analysis == analysis_equilibrium, 'names a result of '// &
+                     .not. scene%general%analysis%floats, 'names a result of '// &
                      'journal bearings, or axial_gap where it is held')
       call keys%rule('operation', 'axial_load', .not. bearing_wedges(scene) .and. &
                      keys%meant('operation', 'axial_load') .and. .not. &
@@ -206,7 +205,7 @@ contains
 
     associate (sweep => scene%sweep)
       if (scene%model%foil%deflects .or. .not. scene%bearing%length > 0.0_wp) return
-      if (scene%general%analysis /= analysis_fixed_position) return
+      if (.not. scene%general%analysis%holds) return
       if (sweep%parameter == 0 .or. sweep%parameter == sweep_keys) then
         if (any(abs(scene%operation%tilt) > 0.0_wp)) call check_gap('operation', 'tilt', &
                                                                     scene%operation)

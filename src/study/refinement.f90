@@ -16,7 +16,6 @@ module gfb_refinement
   use gfb_run_context, only: run_context_type
   use gfb_signals, only: stop_agreed
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: is_bearing
   use gfb_scene_rules, only: is_symmetric
   use gfb_study, only: study_type
   use gfb_bearing_case, only: pad_length
@@ -373,7 +372,7 @@ contains
     allocate (study, mold=self%pattern)
     call study%prepare(scene, log)
     self%mesh = scene
-    if (is_bearing(scene%general%analysis)) call keep_scheme(self%mesh)
+    if (scene%general%analysis%has_film) call keep_scheme(self%mesh)
     self%mesh%mesh = nested_mesh(scene, 0)
     call log%line('accuracy: error of '//asked_name(scene%accuracy)// &
                   ' from meshes that begin with '//mesh_words(self%mesh)// &
@@ -517,7 +516,7 @@ contains
 
     words = ''
     if (sequence%is_of_many()) return
-    if (.not. is_bearing(scene%general%analysis) .or. .not. scene%model%foil%has_shell_bumps .or. &
+    if (.not. scene%general%analysis%has_film .or. .not. scene%model%foil%has_shell_bumps .or. &
         .not. is_symmetric(scene)) return
     beams = scene
     beams%model%foil = foil_beam
@@ -568,7 +567,7 @@ contains
     associate (log => context%log)
       call self%sequence%show(log)
       call log%line(self%sequence%value_words())
-      if (is_bearing(scene%general%analysis) .and. scene%model%foil%has_bumps) then
+      if (scene%general%analysis%has_film .and. scene%model%foil%has_bumps) then
         call log%line('an estimate, no bound: crests ripple the film (manual: accuracy.md)')
       end if
       if (self%converged) then
@@ -636,9 +635,9 @@ contains
 
     associate (mesh => scene%mesh)
       words = text(mesh%circumferential_elements)//' x '//text(mesh%axial_elements)
-      if (is_bearing(scene%general%analysis) .and. .not. scene%model%foil%has_bumps) return
+      if (scene%general%analysis%has_film .and. .not. scene%model%foil%has_bumps) return
       words = words//', '//text(mesh%arc_elements)//'+'//text(mesh%flat_elements)
-      if (is_bearing(scene%general%analysis)) return
+      if (scene%general%analysis%has_film) return
       words = text(mesh%arc_elements)//'+'//text(mesh%flat_elements)//' x '// &
               text(mesh%axial_elements)
     end associate

@@ -6,7 +6,6 @@ module gfb_part_builder
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_modes
   use gfb_foil_cases, only: fixed_edge_none
   use gfb_study_cases, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
   use gfb_film_mesh, only: axial_rows
@@ -72,7 +71,7 @@ contains
     type(chain_type) :: pieces
     integer :: stretch(2), i
 
-    if (scene%general%analysis /= analysis_modes .or. scene%modes%part == part_strip) then
+    if (.not. scene%general%analysis%finds_modes .or. scene%modes%part == part_strip) then
       pieces = strip_chain(strip_shape(scene), rows, reduced)
       return
     end if

@@ -5,7 +5,7 @@
 module gfb_contact_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, from_to, positive, unless
-  use gfb_scene_case, only: is_bearing, misplaced_group, analysis_strip
+  use gfb_analysis_row, only: analysis_row_type
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_contact_law, only: law_tanh_drag, law_coulomb
   use gfb_foil_row, only: foil_row_type
@@ -73,10 +73,10 @@ contains
   subroutine read_shaft_contact_case(keys, contact, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(shaft_contact_case_type), intent(out) :: contact !! what `&shaft_contact` asks for
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
 
     call keys%start_group('shaft_contact', optional=.true., present_in_file=contact%present, &
-                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
+                          misplaced=analysis%refusal('shaft_contact'))
     call keys%real_key('roughness', contact%roughness, 'm', &
                        'roughness height s of shaft and foil together: asperities carry the '// &
                        'pressure p_0 exp(-h/s) where the film has the thickness h', &
@@ -100,16 +100,16 @@ contains
     type(strip_load_case_type), intent(in) :: load !! what `&strip_load` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     real(wp), intent(in) :: clearance !! of a bearing [m]
-    integer, intent(in) :: analysis   !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     type(foil_row_type), intent(in) :: model !! of the foils
     character(len=:), allocatable :: misplaced
     real(wp) :: deflection
     logical :: strip, bearing
 
-    strip = analysis == analysis_strip
-    bearing = is_bearing(analysis) .and. model%has_bumps
-    misplaced = misplaced_group(analysis, strip .or. is_bearing(analysis))
-    if (is_bearing(analysis)) misplaced = unless(.not. model%is_known() .or. model%has_bumps, &
+    strip = analysis%loads_strip
+    bearing = analysis%has_film .and. model%has_bumps
+    misplaced = analysis%refusal('contact')
+    if (analysis%has_film) misplaced = unless(.not. model%is_known() .or. model%has_bumps, &
                                                  "needs foil = 'shell' in &model, or 'beam'")
     deflection = merge(clearance, typical_deflection(load, foil), bearing)
     call keys%start_group('contact', optional=.not. (strip .or. bearing), &

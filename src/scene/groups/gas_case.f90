@@ -7,7 +7,7 @@ module gfb_gas_case
                          density_peng_robinson, density_table, monotone_table, table_at, &
                          peng_robinson, saturate, amount_at, gas_constant, &
                          viscosity_constant, viscosity_sutherland, viscosity_power
-  use gfb_scene_case, only: is_bearing, misplaced_group
+  use gfb_analysis_row, only: analysis_row_type
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -55,15 +55,15 @@ contains
   subroutine read_gas_case(keys, gas, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(gas_case_type), intent(out) :: gas !! what `&gas` asks for
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     type(gas_keys_type) :: said
     logical :: needed, by_law, given
     integer :: mistakes !! before the group
 
     mistakes = keys%mistakes()
-    needed = is_bearing(analysis)
+    needed = analysis%takes(group)
     call keys%start_group(group, required=needed, optional=.not. needed, &
-                          misplaced=misplaced_group(analysis, needed))
+                          misplaced=analysis%refusal(group))
     said%heated = needed .and. keys%line_of_group('thermal') > 0
     said%table = keys%holds(group, 'density_table_pressure')
     said%viscosities = keys%holds(group, 'density_table_viscosity')

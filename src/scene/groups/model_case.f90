@@ -1,10 +1,10 @@
 !> `&model`: how the bearing is modelled.
 module gfb_model_case
   use gfb_kinds, only: wp
+  use gfb_analysis_row, only: analysis_row_type
   use gfb_bearing_case, only: needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type, unless, from_to, positive, longest_list
   use gfb_foil_row, only: foil_row_type, foil_rows, foil_shell
-  use gfb_scene_case, only: is_bearing, is_structure
   implicit none (type, external)
   private
   public :: model_case_type, read_model_case
@@ -80,17 +80,17 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(model_case_type), intent(out) :: model !! what `&model` asks for
     logical, intent(in) :: thrust   !! the pads are sectors of a ring
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     character(len=:), allocatable :: journal !! why keys of one have no use
     integer :: foil !! its number, 0 where it is not known
 
     journal = unless(.not. thrust, needs_journal)
-    call keys%start_group('model', required=is_bearing(analysis))
+    call keys%start_group('model', required=analysis%has_film)
     foil = 0
-    if (is_structure(analysis)) foil = foil_shell%number
-    call keys%choice_key('foil', foil, foil_rows%word, 'model of the foils', is_bearing(analysis))
+    if (analysis%is_structure()) foil = foil_shell%number
+    call keys%choice_key('foil', foil, foil_rows%word, 'model of the foils', analysis%has_film)
     if (foil > 0) model%foil = foil_rows(foil)
-    call keys%rule('model', 'foil', is_structure(analysis) .and. foil > 0 .and. &
+    call keys%rule('model', 'foil', analysis%is_structure() .and. foil > 0 .and. &
                    .not. model%foil%has_shell_bumps, "must be 'shell' for strips and modes")
     call keys%choice_key('reduction', model%reduction, reduction_words, 'condense the bumps of '// &
                          'shells onto the lines that can be loaded; `auto`: where that costs '// &
@@ -109,7 +109,7 @@ contains
                           'biquadratic ones, with twice as many node intervals each way as '// &
                           'elements (film and foils share the nodes)', from_to(1.0_wp, 2.0_wp), &
                           default='2 for thrust bearings, otherwise 1', &
-                          useless=unless(.not. is_structure(analysis), &
+                          useless=unless(.not. analysis%is_structure(), &
                                          'needs a film: strips and modes have none'))
     call keys%rule('model', 'film_order', model%film_order == film_order_biquadratic .and. &
                    model%film_scheme == film_scheme_supg, 'cannot be 2 where film_scheme is '// &

@@ -7,9 +7,7 @@ module gfb_motion_cases
   use gfb_case_keys, only: case_keys_type, no_default, unless, from_to, not_negative, positive, &
                            any_value, longest_list, at_least, between
   use gfb_maxwell_arm, only: maxwell_arm_type
-  use gfb_scene_case, only: analysis_linear_dynamics, analysis_transient, analysis_periodic, &
-                            misplaced_group, analysis_equilibrium, analysis_fixed_position, &
-                            asks_limit
+  use gfb_analysis_row, only: analysis_row_type, analysis_equilibrium, analysis_fixed_position
   use gfb_operation_case, only: operation_case_type, angular_speed
   implicit none (type, external)
   private
@@ -130,16 +128,16 @@ contains
   subroutine read_foil_damping_case(keys, damping, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(foil_damping_case_type), intent(out) :: damping !! what `&foil_damping` asks for
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     real(wp), parameter :: most_modes = 1000.0_wp !! in a piece
     character(len=:), allocatable :: massless
     logical :: moves
 
-    moves = any(analysis == [analysis_linear_dynamics, analysis_transient, analysis_periodic])
-    massless = unless(analysis /= analysis_periodic, &
+    moves = analysis%takes('foil_damping')
+    massless = unless(.not. analysis%takes('periodic'), &
                       "has no use with analysis = 'periodic': there foils have no mass")
     call keys%start_group('foil_damping', optional=.not. moves, &
-                          misplaced=misplaced_group(analysis, moves))
+                          misplaced=analysis%refusal('foil_damping'))
     call keys%real_key('foundation_damping', damping%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
@@ -177,12 +175,11 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(rotor_case_type), intent(out) :: rotor !! what `&rotor` says
     logical, intent(in) :: thrust !! the pads are sectors of a ring
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     character(len=:), allocatable :: misplaced, along
 
     along = unless(.not. thrust, needs_journal//': the rotor moves along its axis')
-    misplaced = misplaced_group(analysis, any(analysis == &
-                [analysis_linear_dynamics, analysis_transient, analysis_periodic]))
+    misplaced = analysis%refusal(group)
     call keys%start_group(group, optional=.true., present_in_file=rotor%present, &
                           misplaced=misplaced)
     call keys%real_key(mass, rotor%mass, 'kg', &
@@ -198,22 +195,22 @@ contains
     call keys%real_key(distance, rotor%bearing_distance, 'm', &
                        'distance of the two bearings, from midplane to midplane', positive, &
                        default=no_default, useless=along)
-    if (analysis == analysis_transient) rotor%distance_in_time = rotor%bearing_distance
+    if (analysis%takes('transient')) rotor%distance_in_time = rotor%bearing_distance
   end subroutine read_rotor_case
 
   !> Reads `&unbalance`.
   subroutine read_unbalance_case(keys, unbalance, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(unbalance_case_type), intent(out) :: unbalance !! what `&unbalance` says
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     character(len=:), allocatable :: no_couple
     logical :: drives
 
-    drives = any(analysis == [analysis_transient, analysis_periodic])
-    no_couple = unless(analysis /= analysis_periodic, "has no use with analysis = 'periodic': "// &
-                       'the shaft moves in x and y alone')
+    drives = analysis%takes('unbalance')
+    no_couple = unless(.not. analysis%takes('periodic'), &
+                       "has no use with analysis = 'periodic': the shaft moves in x and y alone")
     call keys%start_group('unbalance', optional=.not. drives, &
-                          misplaced=misplaced_group(analysis, drives))
+                          misplaced=analysis%refusal('unbalance'))
     call keys%real_key('unbalance', unbalance%static, 'kg m', &
                        'unbalance that this bearing carries: mass times its distance from '// &
                        'the axis', not_negative)
@@ -231,15 +228,18 @@ contains
   !> The analysis that finds the state about which the shaft vibrates, or from which it
   !> moves: a given load is balanced, else the given position is kept. A limit is one of
   !> equilibria. The group `&operation` is not read yet.
-  pure integer function analysis_of_state(analysis, has_load, has_position) result(state)
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+  pure function analysis_of_state(analysis, has_load, has_position) result(state)
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     logical, intent(in) :: has_load, has_position !! keys that `&operation` holds
+    type(analysis_row_type) :: state
 
     state = analysis
-    if (asks_limit(analysis) .or. analysis == analysis_periodic) state = analysis_equilibrium
-    if (analysis /= analysis_linear_dynamics .and. analysis /= analysis_transient) return
+    if (.not. analysis%has_film) return
     state = analysis_equilibrium
-    if (has_position .and. .not. has_load) state = analysis_fixed_position
+    if (.not. analysis%holds) return
+    if (.not. analysis%floats .or. (has_position .and. .not. has_load)) then
+      state = analysis_fixed_position
+    end if
   end function analysis_of_state
 
   !> Reads the group. Frequencies over the speed become frequencies.
@@ -247,11 +247,11 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(dynamics_case_type), intent(out) :: dynamics !! what `&dynamics` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
 
-    dynamics%present = analysis == analysis_linear_dynamics
+    dynamics%present = analysis%takes('dynamics')
     call keys%start_group('dynamics', required=dynamics%present, optional=.not. dynamics%present, &
-                          misplaced=misplaced_group(analysis, dynamics%present))
+                          misplaced=analysis%refusal('dynamics'))
     call keys%real_list_key('frequencies', dynamics%frequencies, longest_list, 'rad/s', &
                             'circular frequencies at which stiffness and damping are asked for', &
                             positive, .false., 'required without `frequency_ratios`')
@@ -289,13 +289,13 @@ contains
   subroutine read_periodic_case(keys, periodic, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(periodic_case_type), intent(out) :: periodic !! what `&periodic` asks for
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     real(wp), parameter :: fewest_steps = 20.0_wp !! of a turn [1]
     real(wp), parameter :: most_points = 1.0e6_wp
 
-    periodic%present = analysis == analysis_periodic
+    periodic%present = analysis%takes('periodic')
     call keys%start_group('periodic', required=periodic%present, optional=.not. periodic%present, &
-                          misplaced=misplaced_group(analysis, periodic%present))
+                          misplaced=analysis%refusal('periodic'))
     call keys%choice_key('motion', periodic%motion, motion_words, &
                          'with the turns of the shaft, by its unbalance; or by itself: a '// &
                          'limit cycle, from the onset of whirl on')
@@ -328,12 +328,12 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(transient_case_type), intent(out) :: transient !! what `&transient` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
 
-    transient%present = analysis == analysis_transient
+    transient%present = analysis%takes('transient')
     call keys%start_group('transient', required=transient%present, &
                           optional=.not. transient%present, &
-                          misplaced=misplaced_group(analysis, transient%present))
+                          misplaced=analysis%refusal('transient'))
     call keys%real_key('turns', transient%turns, '1', 'turns of the shaft that are computed', &
                        positive, default='required without `duration`')
     call keys%real_key('duration', transient%duration, 's', 'the same as a time', positive, &

@@ -5,8 +5,7 @@ module gfb_operation_case
   use gfb_bearing_case, only: bearing_case_type, kind_journal, needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type, no_default, any_value, positive, unless
   use gfb_text, only: text
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position, &
-                            is_bearing, is_structure, misplaced_group
+  use gfb_analysis_row, only: analysis_row_type
   implicit none (type, external)
   private
   public :: operation_case_type, read_operation_case, angular_speed, size_of_gap
@@ -53,7 +52,7 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(operation_case_type), intent(out) :: operation !! what `&operation` asks for
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
-    integer, intent(in) :: analysis  !! of the state, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the state
     logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
     character(len=:), allocatable :: journal, thrust !! why keys of the kind have no use
     logical :: ring
@@ -61,35 +60,35 @@ contains
     ring = bearing%is_thrust()
     journal = unless(.not. ring, needs_journal)
     thrust = unless(bearing%kind /= kind_journal, needs_thrust)
-    call keys%start_group('operation', required=is_bearing(analysis), &
-                          optional=is_structure(analysis), &
-                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
+    call keys%start_group('operation', required=analysis%has_film, &
+                          optional=analysis%is_structure(), &
+                          misplaced=analysis%refusal('operation'))
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
-                       any_value, is_bearing(analysis))
+                       any_value, analysis%has_film)
     if (operation%speed_rpm < 0.0_wp) call keys%complain('operation', 'speed_rpm', other_sense)
-    call keys%rule('operation', 'speed_rpm', analysis == analysis_equilibrium .and. &
+    call keys%rule('operation', 'speed_rpm', analysis%floats .and. &
                    keys%last_key_is_right() .and. .not. (operation%speed_rpm > 0.0_wp .or. &
                    may_rest), 'must be positive: a film without speed carries no load; '// &
                    '&shaft_contact does')
     call keys%real_vector_key('load', operation%load, 'N', 'external force on the shaft, x and y', &
-                              required=analysis == analysis_equilibrium .and. .not. ring, &
+                              required=analysis%floats .and. .not. ring, &
                               default='required for an equilibrium', given=operation%load_given, &
                               useless=journal)
     call keys%real_vector_key('eccentricity', operation%eccentricity, 'm', &
                               'position of the sleeve relative to the shaft, x and y: fixed, '// &
                               'or where the search for an equilibrium starts', &
-                              required=analysis == analysis_fixed_position .and. .not. ring, &
+                              required=analysis%holds .and. .not. ring, &
                               default='required for a fixed position', &
                               given=operation%eccentricity_given, useless=journal)
     call keys%real_key('axial_load', operation%axial_load, 'N', 'force that presses the runner '// &
                        'of a thrust bearing on its pads', &
                        merge(any_value, positive, bearing%play > 0.0_wp), &
-                       ring .and. analysis == analysis_equilibrium, default=no_default, &
+                       ring .and. analysis%floats, default=no_default, &
                        useless=thrust)
     call keys%real_key('axial_gap', operation%axial_gap, 'm', 'gap from the land of its pads '// &
                        'to its runner, on the axis, foils at rest: held, or where the search '// &
                        'for an equilibrium starts', positive, &
-                       ring .and. analysis == analysis_fixed_position, default=no_default, &
+                       ring .and. analysis%holds, default=no_default, &
                        given=operation%axial_gap_given, useless=thrust)
     call keys%rule('operation', 'axial_gap', bearing%play > 0.0_wp .and. &
                    operation%axial_gap >= bearing%play, 'must be less than axial_play in '// &
@@ -99,7 +98,7 @@ contains
                               'and `tilt` is where the search starts', any_value, .false., &
                               default=no_default, given=operation%moment_given, useless=thrust)
     call keys%rule('operation', 'moment', operation%moment_given .and. &
-                   analysis == analysis_fixed_position, 'needs axial_load: at a held gap the '// &
+                   analysis%holds, 'needs axial_load: at a held gap the '// &
                    'tilt is held, too')
     call keys%real_vector_key('tilt', operation%tilt, 'rad', &
                               'rotation of the sleeve relative to the shaft, about x and y')

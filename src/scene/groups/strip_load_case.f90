@@ -4,7 +4,7 @@ module gfb_strip_load_case
   use gfb_foil_cases, only: bump_foil_case_type, solid_width
   use gfb_curved_bump, only: known_stiffness
   use gfb_case_keys, only: case_keys_type, longest_list, unless, any_value, from_to, positive
-  use gfb_scene_case, only: analysis_strip, misplaced_group
+  use gfb_analysis_row, only: analysis_row_type
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -48,12 +48,12 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(strip_load_case_type), intent(out) :: load !! what `&strip_load` asks for
     integer, intent(in) :: bumps    !! of the strip, 0 where not known
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     logical :: needed
 
-    needed = analysis == analysis_strip
+    needed = analysis%takes('strip_load')
     call keys%start_group('strip_load', required=needed, optional=.not. needed, &
-                          misplaced=misplaced_group(analysis, needed))
+                          misplaced=analysis%refusal('strip_load'))
     call keys%choice_key('kind', load%kind, kind_words, 'how the strip is loaded: pressure on '// &
                          'its crests, or two rigid plates')
     ! Plates have none, and their echo must not show one.

@@ -3,10 +3,7 @@
 module gfb_study_cases
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, from_to, at_least, between, not_negative, positive
-  use gfb_scene_case, only: analysis_modes, misplaced_group, analysis_strip, is_bearing, &
-                            analysis_equilibrium, analysis_fixed_position, analysis_load_capacity, &
-                            analysis_lift_off, analysis_misalignment, asks_limit, &
-                            analysis_linear_dynamics
+  use gfb_analysis_row, only: analysis_row_type, limit_speed, limit_tilt
   use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, strip
   use gfb_text, only: text
@@ -67,9 +64,6 @@ module gfb_study_cases
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a percentage that is whole
 
   integer, parameter :: most_tolerances = 1000 !! of a list
-  !> whose answers have derivatives
-  integer, parameter :: derived_analyses(*) = [analysis_equilibrium, analysis_fixed_position, &
-                                               analysis_linear_dynamics]
 
   !> Results whose derivatives are offered, in the order in which the solver has them.
   character(len=*), parameter, public :: quantity_words(*) = [character(len=28) :: &
@@ -119,8 +113,7 @@ module gfb_study_cases
 
   !> What is asked for.
   type :: capacity_case_type
-    !> `analysis_load_capacity`, `analysis_lift_off` or `analysis_misalignment`; 0: nothing is
-    integer :: question = 0
+    integer :: limit = 0                 !! `limit_load`, `limit_speed` or `limit_tilt`; 0: none is
     real(wp) :: smallest_gap = 0.0_wp    !! that the film may have [m]
     real(wp) :: contact_part = 1.0e-2_wp !! of the load that asperities may carry [1]
     integer :: tilt_axis = 1             !! about which the shaft tilts: 1 x, 2 y
@@ -152,10 +145,10 @@ contains
   subroutine read_modes_case(keys, modes, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(modes_case_type), intent(out) :: modes !! what `&modes` asks for
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
 
-    call keys%start_group('modes', optional=analysis /= analysis_modes, &
-                          misplaced=misplaced_group(analysis, analysis == analysis_modes))
+    call keys%start_group('modes', optional=.not. analysis%takes('modes'), &
+                          misplaced=analysis%refusal('modes'))
     call keys%integer_key('count', modes%count, 'number of modes, from the lowest frequency up', &
                           from_to(1.0_wp, 1000.0_wp))
     call keys%choice_key('part', modes%part, part_words, 'component that vibrates')
@@ -172,11 +165,10 @@ contains
   subroutine read_accuracy_case(keys, accuracy, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(accuracy_case_type), intent(out) :: accuracy !! what `&accuracy` asks for
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
 
     call keys%start_group('accuracy', optional=.true., present_in_file=accuracy%present, &
-                          misplaced=misplaced_group(analysis, is_bearing(analysis) .or. &
-                                                    analysis == analysis_strip))
+                          misplaced=analysis%refusal('accuracy'))
     call keys%choice_key('quantity', accuracy%quantity, asked_names(), &
                          'result whose error is estimated', accuracy%present)
     call keys%real_key('target', accuracy%target, '1', &
@@ -243,11 +235,10 @@ contains
   subroutine read_sensitivity_case(keys, sensitivity, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(sensitivity_case_type), intent(out) :: sensitivity !! what `&sensitivity` asks for
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
 
     call keys%start_group('sensitivity', optional=.true., present_in_file=sensitivity%present, &
-                          misplaced=misplaced_group(analysis, &
-                                                    any(analysis == derived_analyses)))
+                          misplaced=analysis%refusal('sensitivity'))
     call keys%words_key('quantity', sensitivity%quantity, quantity_words, &
                         'results whose derivatives are found')
     call keys%rule('sensitivity', 'quantity', sensitivity%present .and. &
@@ -278,13 +269,13 @@ contains
   subroutine read_capacity_case(keys, capacity, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(capacity_case_type), intent(out) :: capacity !! what `&capacity` asks for
-    integer, intent(in) :: analysis !! of the case file, 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     logical :: by_gap
 
-    by_gap = analysis == analysis_load_capacity .or. analysis == analysis_misalignment
-    if (asks_limit(analysis)) capacity%question = analysis
+    capacity%limit = analysis%limit
+    by_gap = capacity%limit > 0 .and. capacity%limit /= limit_speed
     call keys%start_group('capacity', required=by_gap, optional=.not. by_gap, &
-                          misplaced=misplaced_group(analysis, asks_limit(analysis)))
+                          misplaced=analysis%refusal('capacity'))
     call keys%real_key('smallest_gap', capacity%smallest_gap, 'm', &
                        'film thickness at which load or tilt has reached its limit', positive, &
                        required=by_gap, &
@@ -294,14 +285,14 @@ contains
                        between(0.0_wp, 1.0_wp))
     call keys%choice_key('tilt_axis', capacity%tilt_axis, axis_words, &
                          'axis about which the sleeve tilts for the misalignment allowance')
-    if (capacity%question == 0) return
-    if (analysis == analysis_lift_off) then
+    if (capacity%limit == 0) return
+    if (capacity%limit == limit_speed) then
       call keys%rule('capacity', 'smallest_gap', keys%meant('capacity', 'smallest_gap'), &
                      "has no use with analysis = 'lift_off': that has its limit in contact_part")
     else if (keys%meant('capacity', 'contact_part')) then
       call keys%complain('capacity', 'contact_part', "needs analysis = 'lift_off'")
     end if
     call keys%rule('capacity', 'tilt_axis', keys%meant('capacity', 'tilt_axis') .and. &
-                   analysis /= analysis_misalignment, "needs analysis = 'misalignment_allowance'")
+                   capacity%limit /= limit_tilt, "needs analysis = 'misalignment_allowance'")
   end subroutine read_capacity_case
 end module gfb_study_cases

@@ -6,7 +6,7 @@ module gfb_sweep_case
   use gfb_case_keys, only: case_keys_type, longest_list, any_value, not_negative, rule_type, &
                            positive
   use gfb_operation_case, only: operation_case_type, other_sense
-  use gfb_scene_case, only: is_bearing, misplaced_group
+  use gfb_analysis_row, only: analysis_row_type
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -58,12 +58,12 @@ contains
   subroutine read_sweep_case(keys, sweep, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(sweep_case_type), intent(out) :: sweep !! what `&sweep` asks for
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     type(rule_type) :: rule
     integer :: point
 
     call keys%start_group('sweep', optional=.true., present_in_file=sweep%present, &
-                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
+                          misplaced=analysis%refusal('sweep'))
     call keys%choice_or_keys_key('parameter', sweep%parameter, parameter_words, sweep%keys, &
                                  'quantity that is varied; load: its magnitude, in the '// &
                                  'direction of `load`; load_angle: its direction from x '// &

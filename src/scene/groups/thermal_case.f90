@@ -9,7 +9,7 @@ module gfb_thermal_case
   use gfb_heated_film, only: wall_given, wall_conductance, wall_fin
   use gfb_modulus_law, only: modulus_law_type, slope_law, least_ratio, is_usual_modulus, &
                              usual_words
-  use gfb_scene_case, only: is_bearing, misplaced_group
+  use gfb_analysis_row, only: analysis_row_type
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -77,13 +77,13 @@ contains
     type(gas_case_type), intent(inout) :: gas !! what `&gas` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     logical, intent(in) :: thrust !! the pads are sectors of a ring
-    integer, intent(in) :: analysis !! 0 where it is not known
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
     character(len=:), allocatable :: journal !! why keys of one have no use
     logical :: given(3)
 
     journal = unless(.not. thrust, needs_journal)
     call keys%start_group('thermal', optional=.true., present_in_file=thermal%present, &
-                          misplaced=misplaced_group(analysis, is_bearing(analysis)))
+                          misplaced=analysis%refusal('thermal'))
     if (gas%temperature > 0.0_wp) thermal%ambient_temperature = gas%temperature
     call keys%real_key('ambient_temperature', thermal%ambient_temperature, 'K', 'temperature '// &
                        'of the gas that is drawn in', from_to(coldest, hottest), &

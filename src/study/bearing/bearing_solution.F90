@@ -9,7 +9,6 @@ module gfb_bearing_solution
   use gfb_text, only: text
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium
   use gfb_scene_reading, only: scene_at_value
   use gfb_model_case, only: coupling_partitioned
   use gfb_sweep_case, only: operation_at, sweep_keys
@@ -176,7 +175,7 @@ contains
     type(path_settings_type) :: path
     logical :: limits
 
-    limits = self%scene%capacity%question > 0
+    limits = self%scene%capacity%limit > 0
     path = self%path
     if (limits) path%straight_steps = limit_straight_steps
     if (self%scene%sweep%parameter == sweep_keys) then
@@ -204,7 +203,7 @@ contains
     if (self%scene%sweep%parameter == sweep_keys .or. .not. may) return
     associate (sweep => self%scene%sweep)
       may = .not. (self%partitioned .or. sweep%friction_memory .or. sweep%turn_folds .or. sweep%hold_position .or. &
-                   self%scene%capacity%question > 0)
+                   self%scene%capacity%limit > 0)
     end associate
     if (may) may = self%bearing%has_contacts()
     if (may) may = .not. stop_agreed()
@@ -272,7 +271,7 @@ contains
     class(bearing_solution_type), target, intent(inout) :: self !! the solution
     type(path_report_type), intent(inout) :: report !! of the path to the answer, then to the limit
 
-    if (self%scene%capacity%question == 0) return
+    if (self%scene%capacity%limit == 0) return
     if (.not. report%converged()) then
       call report%ending%add_words('no equilibrium to begin with: ', '')
       return
@@ -351,8 +350,8 @@ contains
     type(reason_type), intent(out) :: reason !! why there is none
 
     reason%code = reason_no_answer
-    if (self%scene%general%analysis == analysis_equilibrium) reason%code = reason_no_equilibrium
-    if (self%scene%capacity%question > 0) reason%code = reason_no_limit
+    if (self%scene%general%analysis%floats) reason%code = reason_no_equilibrium
+    if (self%scene%capacity%limit > 0) reason%code = reason_no_limit
     if (fixed) reason%code = reason_fixed_shaft
     reason%detail = report%reason()
     reason%shown = report%has_cause()

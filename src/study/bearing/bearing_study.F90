@@ -19,7 +19,6 @@ module gfb_bearing_study
   use gfb_bearing_plan, only: plan_bearing
   use gfb_memory_check, only: check_memory
   use gfb_bearing_builder, only: check_meshes
-  use gfb_bearing_record, only: analysis_name
   use gfb_dynamics_record, only: coefficients_of
   use gfb_bearing_summary, only: cost_type, answer_quantities
   use gfb_study, only: study_type
@@ -85,7 +84,7 @@ contains
       self%iterations = newton%iterations
       self%factorizations = newton%factorizations
       self%factorizations_finest = newton%factorizations - newton%factorizations_before
-      self%found = answer_quantities(analysis_name(scene), self%converged, &
+      self%found = answer_quantities(trim(scene%general%asked%word), self%converged, &
                                      bearing_answer(bearing, stresses=scene%accuracy%present .or. scene%sample%present), &
                                      bearing%clearance, bearing%force_scale())
       if (self%converged .and. allocated(record%limit)) call add_quantity(self%found, record%limit)

@@ -8,7 +8,7 @@ module gfb_bearing_writing
   use gfb_scene, only: scene_type
   use gfb_petsc_session, only: this_rank, share_failure
   use gfb_sweep_case, only: sweep_keys
-  use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit, analysis_name, add_row
+  use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit, add_row
   use gfb_case_file, only: case_array_type, history_row_type, history_values
   use gfb_contact_record, only: add_foil_contacts
   use gfb_bearing_system, only: bearing_system_type
@@ -247,7 +247,7 @@ contains
 
     associate (bearing => solution%bearing, record => solution%record, converged => result%converged, log => context%log)
       answer = bearing_answer(bearing, stresses=.true.)
-      call add_quantity(summary, answer_quantities(analysis_name(scene), converged, answer, &
+      call add_quantity(summary, answer_quantities(trim(scene%general%asked%word), converged, answer, &
                                                    bearing%clearance, bearing%force_scale()))
       call add_quantity(summary, summary_quantities(record%tilted))
       call add_quantity(summary, bearing%pad(1)%foil%sizes())

@@ -14,7 +14,7 @@ module gfb_branches_study
   use gfb_scene_point, only: operating_point
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, destroy_newton
   use gfb_branch_search, only: branch_search_type, take_branch, lifts_of_pads, destroy_branches, find_branches
-  use gfb_bearing_record, only: bearing_record_type, add_row, analysis_name
+  use gfb_bearing_record, only: bearing_record_type, add_row
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
@@ -75,7 +75,7 @@ contains
     call record_branches(scene, context%log, search, order, bearing, newton, record, grids)
     call show_table(context%log, search, order, record, bearing%clearance)
     call take_branch(bearing, operating_point(scene%operation), search%branch(order(1)))
-    call add_quantity(summary, answer_quantities(analysis_name(scene), .true., search%branch(order(1))%answer, &
+    call add_quantity(summary, answer_quantities(trim(scene%general%asked%word), .true., search%branch(order(1))%answer, &
                                                  bearing%clearance, bearing%force_scale()))
     call add_result(summary, 'branches', size(order))
     call add_quantity(summary, bearing%pad(1)%foil%sizes())

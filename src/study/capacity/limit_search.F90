@@ -17,7 +17,7 @@ module gfb_limit_search
   use gfb_bearing_case, only: pad_angle
   use gfb_film_surface, only: translations
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_load_capacity, analysis_lift_off
+  use gfb_analysis_row, only: limit_load, limit_speed
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -40,7 +40,7 @@ module gfb_limit_search
 
   !> The limit of a scene.
   type :: limit_type
-    integer :: question = 0           !! `analysis_load_capacity`, ...
+    integer :: kind = 0               !! `limit_load`, ...
     integer :: axis = 1               !! of the tilt
     real(wp) :: smallest_gap = 0.0_wp !! [m]
     real(wp) :: contact_part = 0.0_wp !! of the load [1]
@@ -81,7 +81,7 @@ contains
     type(operating_point_type), intent(in) :: point !! whose load has the direction
     type(limit_type) :: limit
 
-    limit%question = scene%capacity%question
+    limit%kind = scene%capacity%limit
     limit%axis = scene%capacity%tilt_axis
     limit%smallest_gap = scene%capacity%smallest_gap
     limit%contact_part = scene%capacity%contact_part
@@ -100,7 +100,7 @@ contains
   !> Whether it is the film that tells, and not the asperities.
   elemental logical function is_of_film(self) result(is)
     class(limit_type), intent(in) :: self !! the limit
-    is = self%question /= analysis_lift_off
+    is = self%kind /= limit_speed
   end function is_of_film
 
   !> Value of what is looked for, at a point.
@@ -109,10 +109,10 @@ contains
     type(operating_point_type), intent(in) :: point !! of the bearing
     real(wp) :: value !! load [N], speed [rad/s] or tilt [rad]
 
-    select case (self%question)
-    case (analysis_load_capacity)
+    select case (self%kind)
+    case (limit_load)
       value = dot_product(point%load(:translations), self%direction)
-    case (analysis_lift_off)
+    case (limit_speed)
       value = point%speed
     case default
       value = point%place(3 + self%axis)
@@ -127,10 +127,10 @@ contains
     type(operating_point_type) :: changed
 
     changed = point
-    select case (self%question)
-    case (analysis_load_capacity)
+    select case (self%kind)
+    case (limit_load)
       changed%load(:translations) = value*self%direction
-    case (analysis_lift_off)
+    case (limit_speed)
       changed%speed = value
     case default
       changed%place(3 + self%axis) = value
@@ -164,10 +164,10 @@ contains
     real(wp), intent(in) :: left  !! reserve there [1]
     real(wp) :: tilt
 
-    select case (self%question)
-    case (analysis_load_capacity)
+    select case (self%kind)
+    case (limit_load)
       next = value*merge(growth, 1.0_wp/growth, left > 0.0_wp)
-    case (analysis_lift_off)
+    case (limit_speed)
       next = value*merge(1.0_wp/growth, growth, left > 0.0_wp)
     case default
       next = 0.0_wp
@@ -189,7 +189,7 @@ contains
 
     aim = value
     if (.not. abs(slope) > 0.0_wp) return
-    if (self%question == analysis_lift_off .or. self%question == analysis_load_capacity) then
+    if (self%kind == limit_speed .or. self%kind == limit_load) then
       aim = value*exp(max(-longest, min(longest, -left/(slope*value))))
     else
       aim = value - left/slope
@@ -204,14 +204,14 @@ contains
     type(quantity_type), allocatable :: list(:)
 
     associate (value => self%value_at(point))
-      select case (self%question)
-      case (analysis_load_capacity)
+      select case (self%kind)
+      case (limit_load)
         call add_result(list, 'load_capacity', value)
         if (.not. self%area > 0.0_wp) then
           call add_result(list, 'load_capacity_coefficient', pounds*self%coefficient(point))
           call add_result(list, 'load_capacity_coefficient_si', self%coefficient(point))
         end if
-      case (analysis_lift_off)
+      case (limit_speed)
         call add_result(list, 'lift_off_speed_rpm', value/rpm)
       case default
         call add_result(list, 'misalignment_allowance', value)
@@ -241,10 +241,10 @@ contains
     real(wp), intent(in) :: from, to !! loads [N], speeds [rad/s] or tilts [rad]
     character(len=:), allocatable :: words
 
-    select case (self%question)
-    case (analysis_load_capacity)
+    select case (self%kind)
+    case (limit_load)
       words = ' from '//text(from, 4)//' to '//text(to, 4)//' N'
-    case (analysis_lift_off)
+    case (limit_speed)
       words = ' from '//text(from/rpm, 4)//' to '//text(to/rpm, 4)//' rpm'
     case default
       words = ' from '//text(from*milliradians, 4)//' to '//text(to*milliradians, 4)//' mrad'
@@ -260,8 +260,8 @@ contains
 
     answer = bearing_answer(bearing)
     associate (value => self%value_at(bearing%point))
-      select case (self%question)
-      case (analysis_load_capacity)
+      select case (self%kind)
+      case (limit_load)
         sentence = 'load capacity: '//text(value, 6)//' N, '
         if (self%area > 0.0_wp) then ! the speed of a ring's tip is what designers tell beside it
           sentence = sentence//text(kilopascals*value/self%area, 4)//' kPa on the pads at '// &
@@ -269,7 +269,7 @@ contains
         else
           sentence = sentence//'coefficient '//text(pounds*self%coefficient(bearing%point), 3)//' lbf/(in^3 krpm)'
         end if
-      case (analysis_lift_off)
+      case (limit_speed)
         sentence = 'lift-off speed: '//text(value/rpm, 6)//' rpm'
       case default
         sentence = 'misalignment allowance: '//text(value*milliradians, 6)//' mrad about '// &
@@ -291,11 +291,11 @@ contains
     character(len=:), allocatable :: sentence
 
     associate (value => self%value_at(bearing%point))
-      select case (self%question)
-      case (analysis_load_capacity)
+      select case (self%kind)
+      case (limit_load)
         sentence = 'the smallest film is thinner than smallest_gap at every load tried, '// &
                    'down to '//text(value, 3)//' N'
-      case (analysis_lift_off)
+      case (limit_speed)
         sentence = 'the asperities carry more than contact_part of the load at every speed '// &
                    'tried, up to '//text(value/rpm, 3)//' rpm'
       case default

@@ -11,7 +11,6 @@ module gfb_bearing_plan
   use gfb_operation_case, only: angular_speed
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_equilibrium
   use gfb_strip_load_case, only: bump_stiffness
   use gfb_sweep_case, only: sweep_load, sweep_speed, sweep_axial_load
   use gfb_text, only: text
@@ -73,11 +72,11 @@ contains
                   merge('h', 'C', scene%bearing%is_thrust())//')^2: '// &
                   spread_text(scene, sweep_speed, scene%operation%speed_rpm, &
                               bearing_number(scene%bearing, scene%gas, 1.0_wp)))
-    if (scene%general%analysis == analysis_equilibrium .and. scene%bearing%is_thrust()) then
+    if (scene%general%analysis%floats .and. scene%bearing%is_thrust()) then
       call log%line('  load over p_a times the pads'' area: '// &
                     spread_text(scene, sweep_axial_load, scene%operation%axial_load, &
                                 1.0_wp/(p_a*area)))
-    else if (scene%general%analysis == analysis_equilibrium) then
+    else if (scene%general%analysis%floats) then
       call log%line('  load over p_a D L: '// &
                     spread_text(scene, sweep_load, norm2(scene%operation%load), 1.0_wp/(p_a*area)))
     end if
@@ -131,7 +130,7 @@ contains
       plan%circumferential = size(plate_stations(scene)) - 1
     end if
     plan%axial = scene%mesh%axial_elements
-    plan%floats = scene%general%analysis == analysis_equilibrium
+    plan%floats = scene%general%analysis%floats
     call log%heading('what the scene needs')
     call show_numbers(scene, log)
     call describe_foil(scene, log)

@@ -4,7 +4,6 @@ module gfb_foil_plan
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_scene_case, only: analysis_strip, analysis_modes
   use gfb_scene_rules, only: is_symmetric
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan, reduction_none, &
                             reduction_auto
@@ -31,11 +30,11 @@ contains
 
     if (scene%model%reduction /= reduction_auto) return
     scene%model%reduction = reduction_guyan
-    if (.not. scene%model%foil%has_shell_bumps .or. scene%general%analysis == analysis_modes) return
+    if (.not. scene%model%foil%has_shell_bumps .or. scene%general%analysis%finds_modes) return
     half = scene%model%half_width == half_width_yes
     if (scene%model%half_width == half_width_auto) then
       half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil)
-      if (scene%general%analysis /= analysis_strip) then
+      if (.not. scene%general%analysis%loads_strip) then
         half = half .and. is_symmetric(scene)
       end if
     end if
@@ -57,7 +56,7 @@ contains
     type(foil_plan_type), intent(out) :: plan !! what was chosen
     logical :: strip
 
-    strip = scene%general%analysis == analysis_strip
+    strip = scene%general%analysis%loads_strip
     call log%heading('what the scene needs')
     if (strip) then
       call show_contacts(scene, log)
@@ -164,7 +163,7 @@ contains
 
     rows = merge(scene%mesh%axial_elements/2, scene%mesh%axial_elements, plan%half) + 1
     call count_bumps(scene, rows, plan%reduced, stations, unknowns)
-    if (scene%general%analysis == analysis_strip) then
+    if (scene%general%analysis%loads_strip) then
       plan%memory = strip_memory(unknowns, stations, rows, plan%reduced, has_friction(scene), &
                                  scene%solver%linear_solver)
     else

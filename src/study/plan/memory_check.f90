@@ -16,7 +16,6 @@ module gfb_memory_check
   use gfb_nonlinear_system, only: few_unknowns
   use gfb_scene, only: scene_type
   use gfb_model_case, only: reduction_guyan
-  use gfb_scene_case, only: analysis_modes
   use gfb_scene_rules, only: what_factors_do
   implicit none (type, external)
   private
@@ -201,7 +200,7 @@ contains
     logical :: shells
 
     words = 'a coarser &mesh'
-    shells = scene%model%foil%has_shell_bumps .and. scene%general%analysis /= analysis_modes
+    shells = scene%model%foil%has_shell_bumps .and. .not. scene%general%analysis%finds_modes
     if (shells .and. scene%model%reduction == reduction_guyan) then
       words = words//", reduction = 'none' where the mesh is wide"
     else if (shells) then
@@ -213,7 +212,7 @@ contains
       words = words//", linear_solver = 'iterative' in &solver"
     end if
     if (scene%solver%linear_solver == linear_solver_direct .and. &
-        scene%general%analysis /= analysis_modes) then
+        .not. scene%general%analysis%finds_modes) then
       words = words//", linear_solver = 'out_of_core'"
     end if
     words = words//', more nodes'

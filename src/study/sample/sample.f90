@@ -8,7 +8,7 @@
 module gfb_sample
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use gfb_kinds, only: wp
-  use gfb_bearing_record, only: analysis_name
+  use gfb_analysis_row, only: analysis_row_type
   use gfb_bump_heights, only: even_deviations
   use gfb_bearing_summary, only: cost_type, cost_quantities
   use gfb_case_file, only: case_array_type, history_row_type, add_array, history_values
@@ -22,7 +22,6 @@ module gfb_sample
   use gfb_study_cases, only: percent_of
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: scene_with_keys
-  use gfb_scene_case, only: analysis_equilibrium, analysis_fixed_position
   use gfb_text_file, only: table_member_type
   use gfb_text, only: text
   use gfb_c_library, only: peak_memory
@@ -142,7 +141,7 @@ contains
       rows(i) = members(i)%row
     end do
     converged = all(members%status == 0)
-    call add_result(summary, 'analysis', analysis_name(scene))
+    call add_result(summary, 'analysis', trim(scene%general%asked%word))
     call add_result(summary, 'converged', converged, all_members)
     call add_result(summary, 'members', size(members))
     call add_result(summary, 'converged_members', count(members%status == 0))
@@ -197,14 +196,14 @@ contains
 
   !> Results that the case gives.
   pure function given_names(analysis) result(names)
-    integer, intent(in) :: analysis !! of the scene
+    type(analysis_row_type), intent(in) :: analysis !! of the scene
     character(len=name_length), allocatable :: names(:)
 
     allocate (names(0))
-    if (analysis == analysis_equilibrium) then
+    if (analysis%floats) then
       names = [character(len=name_length) :: 'force_x', 'force_y']
     end if
-    if (analysis /= analysis_fixed_position) return
+    if (.not. analysis%holds) return
     names = [character(len=name_length) :: 'eccentricity_x', 'eccentricity_y']
   end function given_names
 
