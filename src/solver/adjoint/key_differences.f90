@@ -49,7 +49,7 @@ contains
       difference = difference_type(small, central)
     case default
       select case (key%name)
-      case ('clearance', 'preload')
+      case ('clearance', 'preload', 'preload_offset', 'assembly_interference')
         difference = difference_type(small, central)
       case ('crest_gap', 'corner_gap')
         difference = difference_type(0.01_wp, forward)
