@@ -292,6 +292,73 @@ module gfb_result_table
     result_type('stability_loss', '', word, periodic, 'how they grow, where they do'), &
     result_type('subcritical', '1', truth, periodic, 'cycles begin where rest is stable')]
 
+  !> Columns of a shaft over time, datasets `/transient/<name>` of the result file, in the order of
+  !> the table of values.
+  !>
+  !> Their names lie in a group of their own: `time` of the summary is another number than the
+  !> column's.
+  type(result_type), parameter :: planar_columns(*) = [ &
+    result_type('time', 's', number, transient, 'time from the beginning'), &
+    result_type('turns', '1', number, transient, 'turns of the shaft so far'), &
+    result_type('speed', 'rad/s', number, transient, 'speed of the shaft'), &
+    result_type('eccentricity_x', 'm', number, transient, &
+      'e_x, of the sleeve relative to the shaft'), &
+    result_type('eccentricity_y', 'm', number, transient, &
+      'e_y, of the sleeve relative to the shaft'), &
+    result_type('velocity_x', 'm/s', number, transient, 'rate of e_x'), &
+    result_type('velocity_y', 'm/s', number, transient, 'rate of e_y'), &
+    result_type('force_x', 'N', number, transient, 'film force on the sleeve, x'), &
+    result_type('force_y', 'N', number, transient, 'film force on the sleeve, y'), &
+    result_type('load_x', 'N', number, transient, &
+      'outer force on the shaft, x: load, unbalance, pulse, base'), &
+    result_type('load_y', 'N', number, transient, &
+      'outer force on the shaft, y: load, unbalance, pulse, base'), &
+    result_type('minimum_gap', 'm', number, transient, 'smallest film thickness'), &
+    result_type('maximum_pressure', 'Pa', number, transient, 'largest absolute pressure'), &
+    result_type('minimum_pressure', 'Pa', number, transient, 'smallest absolute pressure'), &
+    result_type('friction_torque', 'N m', number, transient, &
+      'torque with which the film brakes the shaft'), &
+    result_type('step', 's', number, transient, 'step of time that led here'), &
+    result_type('stored_gas', 'Pa m^3', number, transient, &
+      'p h integrated over the film (in a real gas density times p_a over that at p_a, '// &
+      'times h)'), &
+    result_type('gas_outflow', 'Pa m^3/s', number, transient, &
+      'that leaves the film through its edges, a time'), &
+    result_type('steps', '1', total, transient, 'steps so far'), &
+    result_type('newton_iterations', '1', total, transient, &
+      'Newton iterations so far, with those of the start'), &
+    result_type('factorizations', '1', total, transient, &
+      'factorizations so far, with those of the start')]
+
+  !> Those beside them of a rotor that tilts on two bearings.
+  type(result_type), parameter :: tilting_columns(*) = [ &
+    result_type('tilt_x', 'rad', number, transient, &
+      'tilt of the sleeves relative to the rotor about x'), &
+    result_type('tilt_y', 'rad', number, transient, &
+      'tilt of the sleeves relative to the rotor about y'), &
+    result_type('tilt_velocity_x', 'rad/s', number, transient, 'rate of tilt_x'), &
+    result_type('tilt_velocity_y', 'rad/s', number, transient, 'rate of tilt_y'), &
+    result_type('torque_x', 'N m', number, transient, &
+      'torque of the films on the rotor about its centre of mass, x'), &
+    result_type('torque_y', 'N m', number, transient, &
+      'torque of the films on the rotor about its centre of mass, y'), &
+    result_type('outer_torque_x', 'N m', number, transient, &
+      'outer torque on the rotor, x: couple unbalance, pulse'), &
+    result_type('outer_torque_y', 'N m', number, transient, &
+      'outer torque on the rotor, y: couple unbalance, pulse'), &
+    result_type('eccentricity_x_1', 'm', number, transient, 'e_x in a bearing: 1 at +z, 2 at -z'), &
+    result_type('eccentricity_y_1', 'm', number, transient, 'e_y in a bearing: 1 at +z, 2 at -z'), &
+    result_type('eccentricity_x_2', 'm', number, transient, 'e_x in a bearing: 1 at +z, 2 at -z'), &
+    result_type('eccentricity_y_2', 'm', number, transient, 'e_y in a bearing: 1 at +z, 2 at -z'), &
+    result_type('minimum_gap_1', 'm', number, transient, &
+      'smallest film thickness of a bearing: 1 at +z, 2 at -z'), &
+    result_type('minimum_gap_2', 'm', number, transient, &
+      'smallest film thickness of a bearing: 1 at +z, 2 at -z')]
+
+  type(result_type), parameter, public :: time_columns(*) = [planar_columns, tilting_columns]
+  !> Those of a shaft that does not tilt.
+  integer, parameter, public :: planar_time_columns = size(planar_columns)
+
   type(result_type), parameter :: tilts(*) = [ &
     result_type('angular_stiffness_<a><b>', 'N m/rad', number, tilting, &
       'slope of torque_<a> over tilt_<b>, {'//at_this_point//load_kept//'}', &
