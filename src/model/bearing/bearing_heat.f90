@@ -53,7 +53,7 @@ module gfb_bearing_heat
     integer :: shafts = 1, channels = 0 !! unknowns of shaft and channel
   contains
     procedure :: place_of_gas, place_of_foil, place_of_shaft, place_of_channel
-    procedure :: place_of_sleeve, place_of_slit, place_of_mean, last, grows, softens
+    procedure :: place_of_sleeve, place_of_slit, place_of_mean, last, grows, softens, closing
   end type film_heat_type
 
 contains
@@ -69,6 +69,14 @@ contains
     class(film_heat_type), intent(in) :: self !! heat
     softens = self%present .and. self%modulus%is_given()
   end function softens
+
+  !> How much a shaft and a sleeve of given temperatures take off the gap [m].
+  elemental real(wp) function closing(self, shaft, sleeve)
+    class(film_heat_type), intent(in) :: self !! heat
+    real(wp), intent(in) :: shaft, sleeve !! their temperatures [K]
+    closing = self%shaft%growth*(shaft - self%reference) &
+              - self%sleeve%growth*(sleeve - self%reference)
+  end function closing
 
   !> Local unknown of the bearing: temperature of the gas at a node of a pad's film.
   elemental integer function place_of_gas(self, pad, node) result(place)
@@ -176,9 +184,7 @@ contains
       row = row_of(mesh_node(node), rows)
       associate (shaft => unknown(heat%place_of_shaft(row)), &
                  sleeve => unknown(heat%place_of_sleeve()))
-        growth(node) = heat%centrifugal*point%speed**2 &
-          + point%growth*(heat%shaft%growth*(shaft - heat%reference) &
-                          - heat%sleeve%growth*(sleeve - heat%reference))
+        growth(node) = heat%centrifugal*point%speed**2 + point%growth*heat%closing(shaft, sleeve)
       end associate
     end do
   end function growth_of

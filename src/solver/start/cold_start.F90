@@ -4,29 +4,26 @@
 !> A scene is solved on smaller systems first, from the coarsest that `smaller_start.F90` finds to its own. Each starts from
 !> the answer of the one before, and from nothing only if that fails: `start_list.F90` has the starts, in order.
 !>
-!> With heat the first mesh that has an answer at ambient temperature is heated, `heat_start.F90`; all finer ones begin hot,
-!> and a refusal with heat is shown on them from the state where it ended, never searched again.
+!> What `search_stages.F90` adds to the first answer comes on the first mesh that has one; all finer ones begin with it, and a
+!> refusal with heat is shown on them from the state where it ended, never searched again.
 module gfb_cold_start
   use gfb_kinds, only: wp
   use gfb_ending, only: ending_lost, ending_stopped, ending_fold, ending_emptied
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
-  use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_film_surface, only: translations
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_bearing_builder, only: build_bearing, heat_of
-  use gfb_newton, only: newton_type, newton_settings_type, create_newton, destroy_newton
-  use gfb_continuation, only: path_settings_type, path_report_type
-  use gfb_heat_start, only: heat_up, carry_heat, show_heat
-  use gfb_start_problem, only: start_problem_type, drop_bearing, count_spent
+  use gfb_bearing_builder, only: build_bearing
+  use gfb_newton, only: newton_type, create_newton, destroy_newton
+  use gfb_continuation, only: path_report_type
+  use gfb_heat_start, only: carry_heat, show_heat
+  use gfb_start_problem, only: search_request_type, start_problem_type, drop_bearing, count_spent
   use gfb_saved_state, only: saved_state_type
-  use gfb_start_list, only: start_pressed
-  use gfb_branch_search, only: seek_branch
-  use gfb_bearing_heat, only: film_heat_type
+  use gfb_search_stages, only: stages_of, before_heat, start_pressed, take_stages, stage_interference
   use gfb_smaller_start, only: find_smaller, find_between, lies_between
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
@@ -36,14 +33,6 @@ module gfb_cold_start
   public :: start_bearing, start_partitioned
 
   integer, parameter :: most_meshes = 24 !! each has half the elements of the next one at least, or lies between two
-
-  !> What is searched, and how.
-  type :: request_type
-    type(operating_point_type) :: target !! the scene's, or the first of its sweep
-    type(newton_settings_type) :: newton !! when Newton's method stops
-    type(path_settings_type) :: path     !! limits of a path
-    type(run_log_type) :: log            !! gets the lines of progress
-  end type request_type
 
   !> A mesh between the coarsest and the scene's, with its equations.
   type :: mesh_type
@@ -59,56 +48,90 @@ module gfb_cold_start
 
 contains
 
-  !> Builds a scene's equations and finds their answer at an operating point, with heat or without it, on smaller meshes first.
-  !> Where the answer of one with few rows does not lead to the next, one with half the rows is put in between. A bearing that
-  !> there is already is built anew, and what was spent on it counts.
+  !> Builds a scene's equations and finds their answer at an operating point, with heat or without it, on smaller meshes first. A
+  !> bearing that there is already is built anew, and what was spent on it counts.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  subroutine start_bearing(scene, plan, target, newton_settings, path_settings, log, bearing, newton, report, error)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    type(bearing_plan_type), intent(in) :: plan          !! its meshes
-    type(operating_point_type), intent(in) :: target     !! the scene's, or the first of its sweep
-    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
-    type(path_settings_type), intent(in) :: path_settings !! limits of a path
-    type(run_log_type), intent(in) :: log !! gets the lines of progress
+  subroutine start_bearing(request, bearing, newton, report, error)
+    type(search_request_type), intent(in) :: request !! what is searched, and how
     type(bearing_system_type), target, intent(inout) :: bearing !! is built
     type(newton_type), target, intent(inout) :: newton          !! its solver, is created
     type(path_report_type), intent(out) :: report        !! of the start that led to the answer, or nearest to one
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
-    type(request_type) :: request
+
+    call begin_search(request)
+    call search_meshes(request, bearing, newton, report, error)
+    if (.not. allocated(error)) call end_search(request, report)
+  end subroutine start_bearing
+
+  !> Begins to count what a search costs, where it is bounded.
+  subroutine begin_search(request)
+    type(search_request_type), intent(in) :: request
+    if (associated(request%tolerances%bound)) call request%tolerances%bound%begin(request%scene%solver%maximum_factorizations)
+  end subroutine begin_search
+
+  !> What follows a search from nothing is not bounded; one that gave up says so.
+  subroutine end_search(request, report)
+    type(search_request_type), intent(in) :: request
+    type(path_report_type), intent(inout) :: report !! of the search
+    logical :: gave_up
+
+    if (.not. associated(request%tolerances%bound)) return
+    associate (bound => request%tolerances%bound)
+      gave_up = bound%is_reached() .and. .not. report%converged()
+      call bound%lift()
+      if (.not. gave_up) return
+      call request%log%line('the search from nothing gave up '//bound%words()//'; a sweep from a lighter load, a lower '// &
+                            'speed or less tilt may lead there')
+      if (report%has_cause()) return
+      report%ending%kind = ending_stopped
+      call report%ending%add_words('', ', '//bound%words())
+    end associate
+  end subroutine end_search
+
+  !> All meshes, the coarsest first. Where the answer of one with few rows does not lead to the next, one with half the rows is put
+  !> in between.
+  !>
+  !> Fails when the mesh cannot be cut.
+  subroutine search_meshes(request, bearing, newton, report, error)
+    type(search_request_type), intent(in) :: request
+    type(bearing_system_type), target, intent(inout) :: bearing !! is built
+    type(newton_type), target, intent(inout) :: newton          !! its solver, is created
+    type(path_report_type), intent(out) :: report
+    type(error_type), allocatable, intent(out) :: error
     type(mesh_type), allocatable, target :: mesh(:) ! the scene's is the first
+    type(mesh_type), pointer :: before ! the one that was searched before
     integer, allocatable :: left(:) ! numbers of the meshes that are still to be searched, the next one last
-    integer :: last, meshes, spent(3), spent_before(3)
+    integer :: meshes, spent(3), spent_before(3)
     logical :: between, smaller
 
-    request = request_type(target, newton_settings, path_settings, log)
     spent_before = 0
     if (newton%created) call drop_bearing(bearing, newton, spent_before)
     allocate (mesh(most_meshes))
-    mesh(1)%scene = scene
-    mesh(1)%plan = plan
+    mesh(1)%scene = request%scene
+    mesh(1)%plan = request%plan
     mesh(1)%bearing => bearing
     mesh(1)%newton => newton
-    if (.not. scene%thermal%present) call build_mesh(request, mesh(1), .false., error)
+    if (.not. request%scene%thermal%present) call build_mesh(request, mesh(1), .false., error)
     if (allocated(error)) return
     left = [1]
     meshes = 1
     do while (meshes < most_meshes)
-      call find_smaller(mesh(meshes)%scene, mesh(meshes)%plan, target, smaller, mesh(meshes + 1)%scene, mesh(meshes + 1)%plan)
+      call find_smaller(mesh(meshes)%scene, mesh(meshes)%plan, request%target, smaller, mesh(meshes + 1)%scene, mesh(meshes + 1)%plan)
       if (.not. smaller) exit
       meshes = meshes + 1
       left = [left, meshes]
     end do
-    last = 0
+    before => null()
     spent = 0
     do while (size(left) > 0)
       associate (here => mesh(left(size(left))))
         if (.not. associated(here%bearing)) allocate (here%bearing, here%newton)
-        call search_mesh(request, here, mesh(max(last, 1)), last > 0, between, error)
+        call search_mesh(request, here, before, between, error)
         if (allocated(error)) return
         if (between .and. meshes < most_meshes) then
-          call log%line('no answer from that of '//text(mesh(last)%plan%axial)//' rows ('//here%report%reason()//'); half of '// &
-                        text(here%plan%axial)//' first:')
+          call request%log%line('no answer from that of '//text(before%plan%axial)//' rows ('//here%report%reason()//'); half of '// &
+                                text(here%plan%axial)//' first:')
           here%divided = .true.
           meshes = meshes + 1
           call find_between(here%scene, here%plan, mesh(meshes)%scene, mesh(meshes)%plan)
@@ -116,8 +139,8 @@ contains
           cycle
         end if
       end associate
-      if (last > 0) call drop_mesh(mesh(last), spent)
-      last = left(size(left))
+      if (associated(before)) call drop_mesh(before, spent)
+      before => mesh(left(size(left)))
       left = left(:size(left) - 1)
     end do
     call mesh(1)%anchor%destroy()
@@ -125,16 +148,16 @@ contains
     call count_spent(newton, spent + spent_before)
     report = mesh(1)%report
     if (any(report%ending%kind == [ending_lost, ending_stopped]) .and. bearing%floats .and. .not. mesh(1)%heated) then
-      call report%ending%add_words(lost_words(report, target), '')
+      call report%ending%add_words(lost_words(report, request%target), '')
     end if
-  end subroutine start_bearing
+  end subroutine search_meshes
 
-  !> Builds a mesh's equations, with the heat of its scene or at ambient temperature, where its shaft is as its speed has made it
-  !> grow; those that it has the same way stay. What was spent on others counts.
+  !> Builds a mesh's equations, with the heat of its scene or at ambient temperature; those that it has the same way stay. What was
+  !> spent on others counts.
   !>
   !> Fails when the mesh cannot be cut.
   subroutine build_mesh(request, mesh, hot, error)
-    type(request_type), intent(in) :: request
+    type(search_request_type), intent(in) :: request
     type(mesh_type), intent(inout) :: mesh
     logical, intent(in) :: hot !! with heat
     type(error_type), allocatable, intent(out) :: error
@@ -146,30 +169,15 @@ contains
     else
       spent = 0
     end if
-    if (hot .or. .not. mesh%scene%thermal%present) then
+    if (hot) then
       call build_bearing(mesh%scene, mesh%plan, mesh%bearing, error)
     else
-      call build_bearing(at_ambient(mesh%scene, request%target), mesh%plan, mesh%bearing, error)
+      call build_bearing(before_heat(mesh%scene, request%target), mesh%plan, mesh%bearing, error)
     end if
     if (allocated(error)) return
-    call create_newton(mesh%newton, mesh%bearing, 'bearing_', request%newton, request%log)
+    call create_newton(mesh%newton, mesh%bearing, 'bearing_', request%tolerances, request%log)
     call count_spent(mesh%newton, spent)
   end subroutine build_mesh
-
-  !> A scene with heat as it is without; lifts of an edge are those with heat.
-  function at_ambient(scene, target) result(cold)
-    type(scene_type), intent(in) :: scene !! with heat
-    type(operating_point_type), intent(in) :: target !! of it
-    type(scene_type) :: cold
-    type(film_heat_type) :: heat
-
-    heat = heat_of(scene)
-    cold = scene
-    cold%thermal%present = .false.
-    cold%operation%leading_edge_lift = [real(wp) ::]
-    cold%operation%leading_edge_lift_edge = [real(wp) ::]
-    cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
-  end function at_ambient
 
   !> Frees a smaller mesh's equations; what they have cost counts.
   subroutine drop_mesh(mesh, spent)
@@ -199,74 +207,73 @@ contains
     end if
   end function lost_words
 
-  !> Searches one mesh for the answer: from that of the mesh before, with heat where that has it, or else from nothing, and with
-  !> heat then.
+  !> Searches one mesh for the answer: from that of the mesh before, with all stages that this has gone through, or else from nothing,
+  !> and through them then.
   !>
   !> Fails when the mesh cannot be cut.
-  subroutine search_mesh(request, mesh, before, has_smaller, between, error)
-    type(request_type), intent(in) :: request
+  subroutine search_mesh(request, mesh, before, between, error)
+    type(search_request_type), intent(in) :: request
     type(mesh_type), target, intent(inout) :: mesh
-    type(mesh_type), intent(inout) :: before !! the mesh that was searched before
-    logical, intent(in) :: has_smaller !! there is one
+    type(mesh_type), pointer, intent(in) :: before !! the mesh that was searched before; null: there is none
     logical, intent(out) :: between !! another one is needed between them
     type(error_type), allocatable, intent(out) :: error
     type(scene_type), target, allocatable :: cold
     type(start_problem_type), allocatable :: problem
-    logical :: hot, settled
+    type(mesh_type), pointer :: helper
+    integer, allocatable :: stages(:)
+    logical :: settled
 
     between = .false.
-    hot = has_smaller
-    if (hot) hot = before%heated
-    call build_mesh(request, mesh, hot, error)
+    helper => before
+    mesh%heated = .false.
+    if (associated(before)) mesh%heated = before%heated
+    call build_mesh(request, mesh, mesh%heated, error)
     if (allocated(error)) return
     call request%log%stage('film '//text(mesh%plan%circumferential)//' x '//text(mesh%plan%axial))
-    if (hot) then
+    if (mesh%heated) then
       call search_hot(request, mesh, before, between, settled)
       if (between .or. settled) return
       call request%log%line('no answer from the smaller mesh''s with heat ('//mesh%report%reason()//'): from nothing')
+      helper => null()
       mesh%heated = .false.
       call build_mesh(request, mesh, .false., error)
       if (allocated(error)) return
     end if
     allocate (problem)
-    problem%scene => mesh%scene
-    if (mesh%scene%thermal%present) then
-      cold = at_ambient(mesh%scene, request%target)
-      problem%scene => cold
-    end if
     call set_problem(request, mesh, problem)
-    call search_cold(mesh, before, has_smaller .and. .not. hot, problem, between)
-    if (between .or. .not. (mesh%scene%thermal%present .and. mesh%report%converged())) return
+    cold = before_heat(mesh%scene, request%target)
+    problem%scene => cold
+    call search_cold(mesh, helper, problem, between)
+    if (between .or. problem%from_smaller .or. .not. mesh%report%converged()) return
     problem%scene => mesh%scene
-    call heat_up(problem, mesh%report)
-    mesh%heated = .true.
-    call seek_lift(problem, mesh%report)
+    mesh%heated = mesh%scene%thermal%present
+    stages = stages_of(mesh%scene)
+    call take_stages(pack(stages, stages > stage_interference), problem, mesh%report)
   end subroutine search_mesh
 
   !> What is to be solved on a mesh.
   subroutine set_problem(request, mesh, problem)
-    type(request_type), intent(in) :: request
-    type(mesh_type), intent(in) :: mesh
-    type(start_problem_type), intent(inout) :: problem !! with its scene
+    type(search_request_type), intent(in) :: request
+    type(mesh_type), target, intent(in) :: mesh
+    type(start_problem_type), intent(inout) :: problem
 
-    problem%target = request%target
-    problem%settings = request%path
+    problem%search_request_type = request
+    problem%scene => mesh%scene
+    problem%plan = mesh%plan
     problem%bearing => mesh%bearing
     problem%newton => mesh%newton
   end subroutine set_problem
 
   !> On from the state with heat of the mesh before: its answer, or where its search ended.
   subroutine search_hot(request, mesh, before, between, settled)
-    type(request_type), intent(in) :: request
+    type(search_request_type), intent(in) :: request
     type(mesh_type), target, intent(inout) :: mesh
     type(mesh_type), intent(inout) :: before
     logical, intent(out) :: between !! another mesh is needed between them
     logical, intent(out) :: settled !! there is an answer, or none is to be looked for
     type(start_problem_type), allocatable :: problem
 
-    mesh%heated = .true.
     allocate (problem)
-    problem%scene => mesh%scene
     call set_problem(request, mesh, problem)
     problem%smaller => before%bearing
     if (before%report%converged()) then
@@ -288,19 +295,18 @@ contains
   end subroutine search_hot
 
   !> The starts on one mesh without heat, from the answer of the mesh before or from nothing.
-  subroutine search_cold(mesh, before, has_smaller, problem, between)
+  subroutine search_cold(mesh, before, problem, between)
     type(mesh_type), target, intent(inout) :: mesh
-    type(mesh_type), intent(inout) :: before !! the mesh that was searched before
-    logical, intent(in) :: has_smaller !! there is one
+    type(mesh_type), pointer, intent(in) :: before !! the mesh that was searched before; null: there is none
     type(start_problem_type), intent(inout) :: problem !! what is to be solved on this one
     logical, intent(out) :: between !! another one is needed between them
     logical :: helped, again, has_contacts
 
     has_contacts = mesh%bearing%has_contacts()
-    helped = has_smaller
-    if (has_smaller) helped = before%report%converged()
+    helped = .false.
+    if (associated(before)) helped = before%report%converged()
     ! After a mesh in between has failed there is none to begin from; a film alone is cheap, and has answers that its coarse mesh lacks.
-    problem%refused = has_smaller .and. .not. (helped .or. mesh%divided) .and. has_contacts
+    problem%refused = associated(before) .and. .not. (helped .or. mesh%divided) .and. has_contacts
     if (helped) problem%smaller => before%bearing
     if (problem%refused) then
       problem%refusal = before%report
@@ -331,59 +337,42 @@ contains
         end if
       end if
       mesh%anchor = problem%anchor
-      if (.not. problem%from_smaller) call seek_lift(problem, report)
     end associate
   end subroutine search_cold
-
-  !> From an answer to that with the lift of an edge that the scene asks for. What follows a branch has bounds of its own.
-  subroutine seek_lift(problem, report)
-    type(start_problem_type), intent(inout) :: problem !! at the answer
-    type(path_report_type), intent(in) :: report !! of its search
-
-    associate (operation => problem%scene%operation)
-      if (report%converged() .and. operation%asks_for_lift()) then
-        if (associated(problem%newton%settings%bound)) call problem%newton%settings%bound%lift()
-        call seek_branch(operation%leading_edge_lift, operation%leading_edge_lift_edge, problem)
-      end if
-    end associate
-  end subroutine seek_lift
 
   !> Builds a scene's equations and finds their answer by loops, from the film of a rigid foil.
   !>
   !> Fails when the mesh cannot be cut; a scene without an answer is a report, not an error.
-  subroutine start_partitioned(scene, plan, target, newton_settings, path_settings, log, bearing, newton, &
-                               sides, report, error)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    type(bearing_plan_type), intent(in) :: plan      !! its meshes
-    type(operating_point_type), intent(in) :: target !! the scene's, or the first of its sweep
-    type(newton_settings_type), intent(in) :: newton_settings !! when Newton's method stops
-    type(path_settings_type), intent(in) :: path_settings !! limits of a path
-    type(run_log_type), intent(in) :: log !! gets the lines of progress
+  subroutine start_partitioned(request, bearing, newton, sides, report, error)
+    type(search_request_type), intent(in) :: request !! what is searched, and how
     type(bearing_system_type), target, intent(inout) :: bearing !! is built
     type(newton_type), target, intent(inout) :: newton !! of the coupled equations: only counts here
     type(partitioned_type), target, intent(inout) :: sides !! are created
     type(path_report_type), intent(out) :: report !! how it ended
     type(error_type), allocatable, intent(out) :: error !! why it could not be done
 
+    type(search_request_type) :: of_film
     type(bearing_system_type), allocatable, target :: rigid
     type(newton_type), allocatable, target :: rigid_newton
-    type(scene_type), allocatable :: stiff
+    type(scene_type), allocatable, target :: stiff
     real(wp), allocatable :: unknown(:)
     integer :: i
 
     allocate (rigid, rigid_newton)
-    call build_bearing(scene, plan, bearing, error)
+    call build_bearing(request%scene, request%plan, bearing, error)
     if (allocated(error)) return
-    call create_newton(newton, bearing, 'bearing_', newton_settings, log)
-    stiff = scene
+    call create_newton(newton, bearing, 'bearing_', request%tolerances, request%log)
+    stiff = request%scene
     stiff%model%foil = foil_rigid
-    call start_bearing(stiff, plan, target, newton_settings, path_settings, log, rigid, rigid_newton, &
-                       report, error)
+    of_film = request
+    of_film%scene => stiff
+    call begin_search(request)
+    call search_meshes(of_film, rigid, rigid_newton, report, error)
     if (allocated(error)) return
     newton%iterations = rigid_newton%iterations
     newton%factorizations = rigid_newton%factorizations
     newton%factorizations_before = rigid_newton%factorizations
-    bearing%point = target
+    bearing%point = request%target
     bearing%pad%film%flow%upwind = rigid%pad(1)%film%flow%upwind
     call transfer_answer(rigid, bearing)
     allocate (unknown(bearing%local_size()))
@@ -392,14 +381,15 @@ contains
       unknown(bearing%pad(i)%first + bearing%pad(i)%foil%first + 1:bearing%pad(i)%last) = 0.0_wp ! at rest
     end do
     call bearing%set_unknowns(unknown)
-    call create_partitioned(bearing, newton_settings, log, sides)
+    call create_partitioned(bearing, request%tolerances, request%log, sides)
     if (report%converged()) then
-      call log%line('partitioned: starts from the film of a rigid foil, found by '// &
+      call request%log%line('partitioned: starts from the film of a rigid foil, found by '// &
                     text(newton%iterations)//' Newton iterations, and the foil at rest')
-      call follow_partitioned(bearing, newton, target, path_settings, sides, report)
+      call follow_partitioned(bearing, newton, request%target, request%settings, sides, report)
     else
       call report%ending%add_words('the film of a rigid foil, where the loops start: ', '')
     end if
+    call end_search(request, report)
     call destroy_newton(rigid_newton)
     call rigid%destroy()
   end subroutine start_partitioned

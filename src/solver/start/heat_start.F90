@@ -84,8 +84,7 @@ contains
       end if
       answer = bearing_answer(bearing, brief=.true.)
       rise = abs(answer%heat%whole%maximum_film_temperature - heat%ambient)/heat%ambient
-      loss = abs(heat%shaft%growth*(answer%heat%shaft_temperature - heat%reference) - &
-                 heat%sleeve%growth*(answer%heat%sleeve_temperature - heat%reference))/bearing%clearance
+      loss = abs(heat%closing(answer%heat%shaft_temperature, answer%heat%sleeve_temperature))/bearing%clearance
       call follow_path(bearing, newton, problem%target, first_part/max(first_part, rise, 2.0_wp*loss), &
                        heating_settings(problem%settings, least_part), report)
       stopped = gives_up(newton%settings%bound)

@@ -1,31 +1,25 @@
 #include "gfb_petsc.h"
-!> The cold starts: which are tried on a bearing, and in what order; what the shaft presses back, without its
-!> interference of assembly first.
+!> The cold starts: which are tried on a bearing, and in what order.
 module gfb_start_list
   use gfb_kinds, only: wp
-  use gfb_units, only: micrometres
-  use gfb_ending, only: path_stopped, ending_stopped, ending_suction, path_reached, path_touches_at, path_lost
+  use gfb_ending, only: path_stopped, ending_suction
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_operating_point, only: operating_point_type
   use gfb_continuation, only: path_report_type, follow_path
   use gfb_start_problem, only: start_problem_type, soft_contacts_type, after, before, &
-                               clearance_of, trial_settings, usual_eccentricity, first_step
+                               clearance_of, trial_settings, usual_eccentricity
   use gfb_saved_state, only: saved_state_type
-  use gfb_newton, only: find_determinant_sign, newton_type, newton_report_type, solve_newton
-  use gfb_start_position, only: set_interference
+  use gfb_newton, only: find_determinant_sign
   use gfb_smaller_start, only: try_smaller_answer, try_smaller_end
   use gfb_film_surface, only: translations
   use gfb_contactless_start, only: try_from_rest, try_laid_down, try_from_gap
   use gfb_soft_contact_start, only: try_soft_contacts, usual_contacts
   use gfb_bearing_directions, only: has_free_edge, edge_lift
   use gfb_edge_start, only: resting, next_height, try_free_edge
-  use gfb_bearing_system, only: bearing_system_type
-  use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, &
-                         steps_given_up
   implicit none (type)
   private
-  public :: starts_of, soft_starts_of, start_name, try_start, try_starts, start_pressed, close_interference
+  public :: starts_of, soft_starts_of, start_name, try_start, try_starts
 
   integer, parameter, public :: start_smaller_answer = 1
   integer, parameter, public :: start_smaller_end = 2
@@ -58,24 +52,6 @@ module gfb_start_list
 
   type(soft_contacts_type), parameter :: late = soft_contacts_type(after, usual_eccentricity, 1.5_wp, 2.0_wp)
   type(soft_contacts_type), parameter :: near_the_foil = soft_contacts_type(before, 0.9_wp, 1.5_wp, 2.0_wp)
-
-  real(wp), parameter :: smallest_share = 0.005_wp !! of the interference in a step, before it is given up [1]
-  integer, parameter :: max_iterations = 20 !! of such a step
-  real(wp), parameter :: growth = 1.5_wp    !! of one that succeeded [1]
-
-  !> A bearing whose shaft grows to its size; the parameter is the share of the interference.
-  type, extends(path_problem_type) :: interference_path_type
-    type(bearing_system_type), pointer :: bearing => null()
-    type(newton_type), pointer :: newton => null() !! its solver
-    real(wp) :: whole = 0.0_wp         !! interference [m]
-    type(newton_report_type) :: solved !! of the last trial
-    type(saved_state_type) :: saved     !! the last answer
-  contains
-    procedure :: try => try_interference
-    procedure :: accept => accept_interference
-    procedure :: restore => restore_interference
-    procedure :: gives_up => search_gives_up
-  end type interference_path_type
 
   !> The last state of the start that came nearest to an answer.
   type :: nearest_type
@@ -170,31 +146,6 @@ contains
       error stop 'a start that is none'
     end select
   end subroutine try_start
-
-  !> The list of starts; where there is interference, from a smaller system's answer with it, or else without it first.
-  !>
-  !> Without an answer the films are left with as much interference as the state has.
-  subroutine start_pressed(problem, report)
-    type(start_problem_type), intent(inout) :: problem !! what is to be solved
-    type(path_report_type), intent(out) :: report !! how it ended
-    real(wp) :: interference
-
-    interference = problem%scene%bearing%interference
-    call set_interference(problem%bearing, interference)
-    if (.not. interference > 0.0_wp .or. associated(problem%smaller)) then
-      call try_starts(problem, report)
-      if (.not. interference > 0.0_wp .or. report%converged() .or. problem%refused .or. problem%carried_only) return
-    end if
-    problem%smaller => null()
-    call problem%newton%log%detail('without interference of assembly:')
-    call set_interference(problem%bearing, 0.0_wp)
-    call try_starts(problem, report)
-    if (report%converged()) then
-      call close_interference(problem, interference, report)
-    else if (report%ending%kind /= ending_stopped) then
-      call report%ending%add_words('without the growth and interference of '//text(interference*micrometres, 4)//' um ', '')
-    end if
-  end subroutine start_pressed
 
   !> Tries the starts of the list, one after the other, until one leads to the target.
   !>
@@ -373,75 +324,4 @@ contains
       if (rest) rest = edge_lift(problem%bearing, pad) < highest*clearance_of(problem%bearing)
     end do
   end function edges_rest
-
-  !> From an answer without interference to that with all of it, at the same operating point; a step that fails is halved.
-  !>
-  !> At rest there is no gap between an undeflected foil and a shaft that is larger than the bore in it, and no film to
-  !> begin with. With no interference there is; from the answer there the shaft grows in steps to its size.
-  subroutine close_interference(problem, interference, report)
-    type(start_problem_type), intent(inout) :: problem !! at an answer without interference
-    real(wp), intent(in) :: interference !! asked for [m]
-    type(path_report_type), intent(inout) :: report !! of success, which becomes one of failure where a step is too small
-    type(interference_path_type) :: path
-    real(wp) :: least !! gap [m]
-    integer :: allowed, ending
-    logical :: touched
-
-    path%bearing => problem%bearing
-    path%newton => problem%newton
-    path%whole = interference
-    call path%saved%save(problem%bearing)
-    allowed = problem%newton%settings%maximum_iterations
-    problem%newton%settings%maximum_iterations = min(max_iterations, allowed)
-    call follow_steps(path, step_rules_type(first_step=first_step, smallest_step=smallest_share, growth=growth, &
-                                            cuts_the_trial=.true.), ending)
-    problem%newton%settings%maximum_iterations = allowed
-    call path%saved%destroy()
-    least = problem%settings%touch_down_gap
-    if (ending /= steps_arrived) least = max(least, smallest_share*interference)
-    touched = problem%bearing%smallest_gap() < least
-    if (ending == steps_arrived .and. .not. (touched .and. problem%bearing%floats)) then
-      report%ending = path_reached()
-    else if (touched .and. ending /= steps_given_up) then
-      report%ending = path_touches_at('where the interference is '//text(path%at*interference, 4)//' m')
-    else
-      report%ending = path_lost('no step leads beyond an interference of '//text(path%at*interference, 4)//' m: '//path%solved%reason)
-    end if
-  end subroutine close_interference
-
-  !> A share of the interference: Newton's method from the last answer.
-  subroutine try_interference(self, trial, may_be_cut, converged, iterations)
-    class(interference_path_type), intent(inout) :: self !! the path
-    real(wp), intent(in) :: trial     !! share [1]
-    logical, intent(in) :: may_be_cut !! does not matter
-    logical, intent(out) :: converged !! there is an answer
-    integer, intent(out) :: iterations
-
-    call set_interference(self%bearing, trial*self%whole)
-    call self%newton%log%detail('interference '//text(trial*self%whole, 4)//' m')
-    call solve_newton(self%newton, self%solved)
-    converged = self%solved%converged
-    iterations = self%solved%iterations
-  end subroutine try_interference
-
-  !> Saves an answer.
-  subroutine accept_interference(self, trial)
-    class(interference_path_type), intent(inout) :: self !! the path
-    real(wp), intent(in) :: trial !! share [1]
-    call self%saved%save(self%bearing)
-  end subroutine accept_interference
-
-  !> Goes back to the last answer.
-  subroutine restore_interference(self)
-    class(interference_path_type), intent(inout) :: self !! the path
-
-    call self%saved%restore(self%bearing)
-    call set_interference(self%bearing, self%at*self%whole)
-  end subroutine restore_interference
-
-  !> Whether all work that is allowed is done.
-  logical function search_gives_up(self)
-    class(interference_path_type), intent(inout) :: self !! the path
-    search_gives_up = gives_up(self%newton%settings%bound)
-  end function search_gives_up
 end module gfb_start_list

@@ -1,11 +1,13 @@
 #include "gfb_petsc.h"
-!> What a cold start is, and what it is tried on.
+!> What is asked of a search for an answer from nothing, what a cold start is, and what it is tried on.
 module gfb_start_problem
   use gfb_kinds, only: wp
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type, forget_factors, destroy_newton
+  use gfb_run_log, only: run_log_type
+  use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_newton, only: newton_type, newton_settings_type, forget_factors, destroy_newton
   use gfb_saved_state, only: saved_state_type
   use gfb_ending, only: path_settings_type, path_report_type
   implicit none (type)
@@ -35,11 +37,18 @@ module gfb_start_problem
     real(wp) :: growth = 1.0_wp         !! of a step that succeeded [1]
   end type soft_contacts_type
 
-  !> A bearing that is to be brought to an operating point from nothing.
-  type, public :: start_problem_type
-    type(scene_type), pointer :: scene => null()
-    type(operating_point_type) :: target                       !! asked for
-    type(path_settings_type) :: settings
+  !> What is searched, and how.
+  type, public :: search_request_type
+    type(scene_type), pointer :: scene => null() !! what the case file asks for
+    type(bearing_plan_type) :: plan              !! its meshes
+    type(operating_point_type) :: target         !! the scene's, or the first of its sweep
+    type(newton_settings_type) :: tolerances     !! when Newton's method stops; their bound is the search's
+    type(path_settings_type) :: settings         !! limits of a path
+    type(run_log_type) :: log                    !! gets the lines of progress
+  end type search_request_type
+
+  !> A bearing of one mesh that is to be brought to an operating point from nothing.
+  type, public, extends(search_request_type) :: start_problem_type
     type(bearing_system_type), pointer :: bearing => null()
     type(newton_type), pointer :: newton => null()             !! its solver
     type(bearing_system_type), pointer :: smaller => null()    !! on a coarser mesh or half the width, if there is one

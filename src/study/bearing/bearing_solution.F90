@@ -19,6 +19,7 @@ module gfb_bearing_solution
   use gfb_bearing_builder, only: build_bearing
   use gfb_newton, only: newton_type, newton_settings_type, work_bound_type, create_newton, destroy_newton
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_start_problem, only: search_request_type
   use gfb_cold_start, only: start_bearing, start_partitioned
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned, forget_partitioned, destroy_partitioned
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit
@@ -57,7 +58,7 @@ module gfb_bearing_solution
   contains
     procedure :: set_up, start, resume, move_to, approach_limit, target_at, watch, save
     procedure :: save_stopped, explain, stop_short, drop_helpers, destroy
-    procedure, private :: take_value, follow, may_start_anew, start_anew, search, end_search
+    procedure, private :: take_value, follow, may_start_anew, start_anew, search
   end type bearing_solution_type
 
 contains
@@ -108,18 +109,10 @@ contains
 
     if (point > 0) call self%take_value(point, error)
     if (allocated(error)) return
-    call self%bound%begin(self%here%solver%maximum_factorizations)
     target = operating_point(self%here%operation)
     if (point > 0) target = operating_point(operation_at(self%here%operation, self%here%sweep, point))
-    if (self%partitioned) then
-      call start_partitioned(self%here, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, &
-                             self%newton, self%sides, report, error)
-    else
-      call self%search(self%here, target, report, error)
-    end if
-    if (allocated(error)) return
-    call self%end_search(report)
-    call self%approach_limit(report)
+    call self%search(self%here, target, report, error)
+    if (.not. allocated(error)) call self%approach_limit(report)
   end subroutine start
 
   !> The answer that a restart file holds, and all that was recorded.
@@ -217,7 +210,7 @@ contains
     integer, intent(in) :: point !! of the sweep
     type(path_report_type), intent(inout) :: report !! in: of the path that has ended; out: of the start
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(scene_type) :: scene
+    type(scene_type), target :: scene
     real(wp) :: before
 
     associate (sweep => self%scene%sweep, log => self%context%log)
@@ -232,39 +225,27 @@ contains
     if (allocated(error)) return
     scene = self%here
     scene%operation = operation_at(scene%operation, scene%sweep, point)
-    call self%bound%begin(scene%solver%maximum_factorizations)
     call self%search(scene, operating_point(scene%operation), report, error)
-    if (.not. allocated(error)) call self%end_search(report)
   end subroutine start_anew
 
-  !> Searches the answer from nothing.
+  !> Searches the answer of a scene with the present values from nothing.
   !>
   !> Fails when the mesh cannot be cut.
   subroutine search(self, scene, target, report, error)
     class(bearing_solution_type), target, intent(inout) :: self !! the solution
-    type(scene_type), intent(in) :: scene !! with the present values
+    type(scene_type), target, intent(in) :: scene !! with the present values
     type(operating_point_type), intent(in) :: target !! of it
     type(path_report_type), intent(out) :: report !! of the search
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(search_request_type) :: request
 
-    call start_bearing(scene, self%plan, target, self%tolerances, self%path, self%context%log, self%bearing, self%newton, report, error)
+    request = search_request_type(scene, self%plan, target, self%tolerances, self%path, self%context%log)
+    if (self%partitioned) then
+      call start_partitioned(request, self%bearing, self%newton, self%sides, report, error)
+    else
+      call start_bearing(request, self%bearing, self%newton, report, error)
+    end if
   end subroutine search
-
-  !> What follows a search from nothing is not bounded; one that gave up says so.
-  subroutine end_search(self, report)
-    class(bearing_solution_type), intent(inout) :: self !! the solution
-    type(path_report_type), intent(inout) :: report !! of the search
-    logical :: gave_up
-
-    gave_up = self%bound%is_reached() .and. .not. report%converged()
-    call self%bound%lift()
-    if (.not. gave_up) return
-    call self%context%log%line('the search from nothing gave up '//self%bound%words()//'; a sweep from a lighter load, a lower '// &
-                               'speed or less tilt may lead there')
-    if (report%has_cause()) return
-    report%ending%kind = ending_stopped
-    call report%ending%add_words('', ', '//self%bound%words())
-  end subroutine end_search
 
   !> From the present answer to its limit, where the scene asks for one.
   subroutine approach_limit(self, report)

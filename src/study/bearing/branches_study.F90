@@ -26,7 +26,7 @@ module gfb_branches_study
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_continuation, only: path_settings_type, path_report_type
   use gfb_cold_start, only: start_bearing
-  use gfb_start_problem, only: start_problem_type
+  use gfb_start_problem, only: start_problem_type, search_request_type
   use gfb_start_list, only: soft_starts_of, start_name, try_start
   use gfb_bearing_plan, only: plan_bearing
   use gfb_outcome, only: add_outcome
@@ -209,17 +209,15 @@ contains
     type(path_settings_type) :: settings
     type(newton_settings_type) :: tolerances
     type(path_report_type) :: report
-    type(scene_type), allocatable :: own
+    type(scene_type), allocatable, target :: own
 
     own = searched(scene)
     associate (solver => scene%solver)
       settings = path_settings_type(solver%maximum_load_steps, solver%smallest_load_step, solver%touch_down_gap)
       tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, solver%maximum_iterations)
       tolerances%bound => self%bound
-      call self%bound%begin(solver%maximum_factorizations)
-      call start_bearing(own, self%plan, operating_point(scene%operation), tolerances, settings, context%log, &
+      call start_bearing(search_request_type(own, self%plan, operating_point(scene%operation), tolerances, settings, context%log), &
                          self%bearing, self%newton, report, error)
-      call self%bound%lift()
     end associate
     if (allocated(error)) return
     self%search%lifts = [lowest_lift, highest_lift]*self%bearing%clearance
@@ -254,7 +252,8 @@ contains
     quick = settings
     quick%look_for_folds = .false.
     quick%smallest_step = max(quick%smallest_step, 0.01_wp)
-    problem = start_problem_type(scene, operating_point(scene%operation), quick, self%bearing, self%newton)
+    problem = start_problem_type(scene=scene, target=operating_point(scene%operation), settings=quick, bearing=self%bearing, &
+                                 newton=self%newton)
     starts = soft_starts_of(problem) ! the others follow from these
     do i = 1, size(starts)
       call log%stage('start "'//start_name(starts(i))//'":')
