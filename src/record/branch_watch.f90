@@ -18,7 +18,7 @@ module gfb_branch_watch
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: parameter_words, sweep_keys, sweep_load_angle
-  use gfb_foil_cases, only: top_foil_trailing
+  use gfb_top_foil_case, only: top_foil_trailing
   use gfb_case_file, only: history_row_type
   implicit none (type, external)
   private

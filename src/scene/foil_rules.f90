@@ -5,8 +5,8 @@ module gfb_foil_rules
   use gfb_kinds, only: wp
   use gfb_foil_cases, only: bump_foil_case_type, has_sizes, one_bump, strips_differ, &
                             fixed_edge_none, fixed_edge_trailing, has_flats, bumps_overlap, &
-                            one_strip, sizes_mirror, complain_of_sizes, size_type, &
-                            initial_curvature
+                            one_strip, sizes_mirror, complain_of_sizes, size_type
+  use gfb_top_foil_case, only: initial_curvature
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: needs_meshes, coupling_partitioned, half_width_yes
   use gfb_scene, only: scene_type

@@ -8,8 +8,8 @@ module gfb_scene
                              read_sensitivity_case
   use gfb_bearing_case, only: bearing_case_type, bore_case_type, read_bearing_case, &
                               read_pads_case, read_bore_case, read_ramp_case
-  use gfb_foil_cases, only: bump_foil_case_type, read_bump_foil_case, top_foil_case_type, &
-                            read_top_foil_case
+  use gfb_foil_cases, only: bump_foil_case_type, read_bump_foil_case
+  use gfb_top_foil_case, only: top_foil_case_type, read_top_foil_case
   use gfb_contact_case, only: contact_case_type, read_contact_case, shaft_contact_case_type, &
                               read_shaft_contact_case
   use gfb_motion_cases, only: dynamics_case_type, foil_damping_case_type, periodic_case_type, &
@@ -116,7 +116,8 @@ contains
       ! A mass that whirls moves across the axis.
       scene%dynamics%stability = scene%dynamics%stability .and. .not. scene%bearing%is_thrust()
       call read_sweep_case(keys, scene%sweep, analysis)
-      call read_top_foil_case(keys, scene%top_foil, scene%bearing%is_thrust(), needs)
+      call read_top_foil_case(keys, scene%top_foil, scene%bearing%is_thrust(), needs, &
+                              scene%model%foil)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
       call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, &
                              scene%bearing%is_thrust(), analysis)

@@ -5,7 +5,6 @@ module gfb_scene_reading
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
   use gfb_motion_cases, only: mass_off
-  use gfb_moved_keys, only: home_of
   use gfb_model_case, only: coupling_partitioned
   use gfb_scene, only: scene_type, read_groups
   use gfb_study_cases, only: parameter_type
@@ -15,6 +14,7 @@ module gfb_scene_reading
   use gfb_errors, only: error_type
   use gfb_foreign_characters, only: as_utf8
   use gfb_key_book, only: key_type
+  use gfb_key_effect, only: acts_on_nothing, acts_on_point
   use gfb_plausible_values, only: check_plausible, check_tolerance
   use gfb_scene_rules, only: check_groups
   use gfb_changed_text, only: changed_text, changed_list_text
@@ -140,114 +140,43 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(swept_key_type), intent(in) :: named !! the key, as it was typed
     character(len=:), allocatable :: problem
-    character(len=:), allocatable :: group, key
-    logical :: foils, springs, computed, plate
 
-    key = named%name
-    group = home_of(named%group, key)
-    foils = scene%model%foil%has_bumps
-    plate = scene%model%foil%has_crest_springs
-    springs = scene%model%foil%stiffness_key /= ''
-    computed = springs .and. .not. keys%meant('model', trim(scene%model%foil%stiffness_key))
-    problem = ''
-    select case (group)
-    case ('bearing', 'pads')
-      return
-    case ('ramp')
-      if (.not. scene%bearing%ramp_part > 0.0_wp) problem = 'the file has no group &ramp'
-    case ('gas')
-      if (key == 'viscosity' .and. scene%gas%has_viscosity_law) then
-        problem = 'a law or a table gives the viscosity'
+    associate (key => keys%book%keys(keys%book%place_of(named%group, named%name)))
+      problem = key%idle
+      if (key%acts_on == acts_on_nothing) then
+        problem = 'it does not belong to the bearing, but to how it is computed'
+      else if (key%group == 'bump_foil') then
+        problem = bump_problem(keys, scene, trim(key%name))
       end if
-    case ('bore')
-      if (.not. scene%bore%present) problem = 'the file has no group &bore'
-    case ('operation')
-      problem = operation_problem(scene, key)
-    case ('top_foil')
-      if (.not. (scene%model%foil%has_top_foil .or. &
-                 (scene%thermal%present .and. key == 'thickness'))) then
-        problem = needs_foils()
+      if (key%name == 'density') then
+        if (scene%foil_damping%foil_mass == mass_off) problem = "foil_mass = 'off'"
+        if (.not. scene%dynamics%present) problem = 'nothing vibrates'
       end if
-    case ('bump_foil')
-      problem = bump_problem(scene, key, springs, computed)
-      if (.not. foils .and. .not. springs) problem = needs_foils()
-      if (heat_follows(keys, scene, key)) problem = ''
-    case ('contact')
-      if (.not. foils) problem = needs_foils()
-      if (foils .and. key == 'stick_length' .and. .not. scene%contact%may_rub) then
-        problem = 'there is no friction'
-      end if
-    case ('shaft_contact')
-      if (.not. scene%shaft_contact%present) problem = 'the file has no group &shaft_contact'
-    case ('rotor')
-      if (.not. scene%rotor%present) problem = 'the file has no group &rotor'
-    case ('thermal')
-      if (.not. scene%thermal%present) problem = 'the file has no group &thermal'
-    case ('capacity')
-      if (scene%capacity%limit == 0) problem = 'no limit is looked for'
-    case ('dynamics', 'foil_damping')
-      if (.not. scene%dynamics%present) problem = "it needs analysis = 'linear_dynamics'"
-    case ('model')
-      if (.not. springs) problem = "it needs foil = 'elastic_foundation' in &model"
-      if (plate .neqv. any(key == ['crest_stiffness', 'spring_pitch   '])) then
-        problem = "foil = '"//trim(scene%model%foil%word)//"' does not know it"
-      end if
-    case default
-      problem = 'it does not belong to the bearing, but to how it is computed'
-    end select
-    if (key == 'density') then
-      if (scene%foil_damping%foil_mass == mass_off) problem = "foil_mass = 'off'"
-      if (.not. scene%dynamics%present) problem = 'nothing vibrates'
-    end if
-    if (problem /= '') problem = named%group//'%'//key//' has no effect here: '//problem
-
-  contains
-
-    !> Says which foils have the key.
-    function needs_foils() result(words)
-      character(len=:), allocatable :: words
-      words = "it needs foil = 'shell' in &model, or 'beam', not '"// &
-              trim(scene%model%foil%word)//"'"
-    end function needs_foils
+    end associate
+    if (problem /= '') problem = named%group//'%'//named%name//' has no effect here: '//problem
   end function use_problem
 
-  !> Why a key of the operating point has no effect; empty where it has one.
-  pure function operation_problem(scene, key) result(words)
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), intent(in) :: key !! of `&operation`
-    character(len=:), allocatable :: words
-    logical :: held !! the shaft is, at the position that is given
-
-    words = ''
-    held = scene%general%analysis%holds
-    select case (key)
-    case ('speed_rpm')
-      return
-    case ('axial_load')
-      if (held) words = 'the gap is given'
-    case ('axial_gap')
-      if (.not. held) words = 'the search for the equilibrium starts there'
-    case default
-      words = 'it chooses the first answer, the others follow that'
-    end select
-  end function operation_problem
-
-  !> Why a key of the bumps has no effect where springs stand for them; empty where it has one.
-  function bump_problem(scene, key, springs, computed) result(words)
+  !> Why a key of the bumps has no effect; empty where it has one.
+  function bump_problem(keys, scene, key) result(words)
+    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
     type(scene_type), intent(in) :: scene !! what the case file asks for
     character(len=*), intent(in) :: key !! of `&bump_foil`
-    logical, intent(in) :: springs !! stand for the bumps
-    logical, intent(in) :: computed !! by Walowit and Anno
     character(len=:), allocatable :: words
 
     words = ''
-    if (springs .and. .not. (computed .or. (scene%model%foil%has_crest_springs .and. &
-        any(key == ['pitch       ', 'half_length ', 'crest_angles'])))) then
-      words = trim(scene%model%foil%stiffness_key)//' in &model is given'
-    end if
-    if (computed .and. any(key == ['height', 'width '])) then
-      words = 'the stiffness by Walowit-Anno does not depend on it'
-    end if
+    associate (foil => scene%model%foil)
+      if (foil%stiffness_key == '') then
+        words = foil%needs_bumps()
+      else if (.not. keys%meant('model', trim(foil%stiffness_key))) then
+        if (any(key == ['height', 'width '])) then
+          words = 'the stiffness by Walowit-Anno does not depend on it'
+        end if
+      else if (.not. (foil%has_crest_springs .and. &
+                      any(key == ['pitch       ', 'half_length ', 'crest_angles']))) then
+        words = trim(foil%stiffness_key)//' in &model is given'
+      end if
+    end associate
+    if (heat_follows(keys, scene, key)) words = ''
   end function bump_problem
 
   !> Whether a default of `&thermal` follows a key of the bumps, whatever foil there is.
@@ -391,6 +320,7 @@ contains
     integer :: i
 
     one%key = key
+    one%key%acts_on = acts_on_point
     one%tolerance = tolerance
     allocate (value(0))
     if (key%label() == 'operation%load') then
@@ -403,6 +333,7 @@ contains
     else
       call look_up(keys, scene, key, one%unit, problem)
       if (problem /= '') return
+      one%key%acts_on = keys%book%keys(keys%book%place_of(key%group, key%name))%acts_on
       value = list_values(keys, key, scene%bump_foil)
     end if
     do i = 1, size(value)

@@ -3,7 +3,7 @@
 module gfb_study_rules
   use gfb_kinds, only: wp
   use gfb_study_cases, only: asked_name, of_vibrations
-  use gfb_foil_cases, only: top_foil_trailing
+  use gfb_top_foil_case, only: top_foil_trailing
   use gfb_case_keys, only: case_keys_type
   use gfb_model_case, only: needs_meshes, coupling_partitioned
   use gfb_result_names, only: is_of

@@ -34,7 +34,8 @@ module gfb_beam_foil
   use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
-  use gfb_foil_cases, only: top_foil_leading, fixed_edge_trailing, gap_of_crest, gap_of_corner
+  use gfb_top_foil_case, only: top_foil_leading
+  use gfb_foil_cases, only: fixed_edge_trailing, gap_of_crest, gap_of_corner
   use gfb_model_case, only: coupling_partitioned
   use gfb_film_mesh, only: film_mesh_type
   use gfb_mesh_dm, only: local_mesh_type

@@ -15,7 +15,7 @@
 !> nothing between them.
 module gfb_initial_moment
   use gfb_kinds, only: wp
-  use gfb_foil_cases, only: top_foil_case_type, initial_curvature
+  use gfb_top_foil_case, only: top_foil_case_type, initial_curvature
   use gfb_film_mesh, only: film_mesh_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_planar_beam, only: beam_section_type, plane_strain_section

@@ -7,7 +7,8 @@ module gfb_foil_builder
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle, strip_ends, middle_radius
-  use gfb_foil_cases, only: top_foil_leading, bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ, &
+  use gfb_top_foil_case, only: top_foil_leading
+  use gfb_foil_cases, only: bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ, &
                             strip_curved, strip_straight
   use gfb_film_mesh, only: film_mesh_type
   use gfb_quad_mesh, only: quad_mesh_type, node_set, loose_rows

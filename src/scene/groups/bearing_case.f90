@@ -8,6 +8,7 @@ module gfb_bearing_case
   use gfb_text, only: text
   use gfb_bore_profile, only: bore_profile_type
   use gfb_ramp_shape, only: ramp_shape_type, ramp_shape
+  use gfb_key_effect, only: acts_on_film, acts_on_all
   implicit none (type, external)
   private
   public :: bearing_case_type, bore_case_type, read_bearing_case, read_pads_case, read_bore_case
@@ -71,7 +72,7 @@ contains
     logical :: ring
 
     call keys%start_group('bearing', required=needed, optional=.not. needed, &
-                          misplaced=misplaced)
+                          misplaced=misplaced, acts_on=acts_on_all)
     call keys%choice_key('kind', bearing%kind, kind_words, 'a cylinder around the shaft, or '// &
                          'pads in a plane across the axis with a runner above them', &
                          useless=unless(with_film .or. .not. needed, 'has no use without a film'))
@@ -97,7 +98,7 @@ contains
     call keys%real_key('clearance', bearing%clearance, 'm', &
                        'radial clearance, shaft to top foil at rest', positive, &
                        with_film .and. .not. ring, default=merge('    ', no_default, with_film), &
-                       useless=journal)
+                       useless=journal, acts_on=acts_on_film)
     call keys%real_key('leading_edge_angle', bearing%leading_edge_angle, 'rad', &
                        'where the pad begins; it ends at 2 pi', from_below(0.0_wp, turn), &
                        useless=unless(.not. ring, needs_journal//': first_leading_edge in '// &
@@ -107,7 +108,7 @@ contains
                          useless=journal)
     call keys%real_key('assembly_interference', bearing%interference, 'm', 'taken off the gap '// &
                        'all around; more than `clearance` presses the foil back at rest', &
-                       at_least(0.0_wp), useless=journal)
+                       at_least(0.0_wp), useless=journal, acts_on=acts_on_film)
     call keys%rule('bearing', 'leading_edge_angle', &
                    bearing%leading_edge_condition == leading_edge_periodic .and. &
                    bearing%leading_edge_angle > 0.0_wp, 'must be 0 with leading_edge_condition '// &
@@ -203,7 +204,7 @@ contains
 
     first = bearing%leading_edge_angle
     gap = 0.0_wp
-    call keys%start_group(pads_group, optional=.true., misplaced=misplaced)
+    call keys%start_group(pads_group, optional=.true., misplaced=misplaced, acts_on=acts_on_all)
     call keys%integer_key('count', bearing%pads, 'pads, equal and equally spaced', &
                           from_to(1.0_wp, real(most_pads, wp)))
     call keys%real_key('arc', bearing%arc, 'rad', 'of one pad, from its leading to its '// &
@@ -216,11 +217,13 @@ contains
                        default='2 pi/count less arc')
     call keys%real_key('preload', bearing%preload, '1', 'shift of a pad''s centre of curvature '// &
                        'towards the shaft, over the clearance', from_below(0.0_wp, 1.0_wp), &
-                       useless=unless(.not. bearing%is_thrust(), needs_journal))
+                       useless=unless(.not. bearing%is_thrust(), needs_journal), &
+                       acts_on=acts_on_film)
     call keys%real_key('preload_offset', bearing%preload_offset, '1', 'where on the pad the '// &
                        'preload narrows the gap most: part of the arc from the leading edge', &
                        from_to(0.0_wp, 1.0_wp), &
-                       useless=unless(.not. bearing%is_thrust(), needs_journal))
+                       useless=unless(.not. bearing%is_thrust(), needs_journal), &
+                       acts_on=acts_on_film)
     call keys%rule(pads_group, 'count', bearing%play > 0.0_wp .and. 2*bearing%pads > most_pads, &
                    'must be '//text(most_pads/2)//' or less with axial_play in &bearing: both '// &
                    'sides have as many')
@@ -284,7 +287,8 @@ contains
     why = misplaced
     if (why == '') why = unless(bearing%kind /= kind_journal, needs_thrust)
     call keys%start_group(ramp_group, optional=.true., present_in_file=present_in_file, &
-                          misplaced=why)
+                          misplaced=why, acts_on=acts_on_all)
+    call keys%idle(unless(present_in_file, 'the file has no group &ramp'))
     call keys%real_key('part', bearing%ramp_part, '1', 'part of each pad, from its leading '// &
                        'edge, over which the gap narrows to that of the land', &
                        from_to(0.0_wp, 1.0_wp), present_in_file, default=no_default)
@@ -307,7 +311,8 @@ contains
 
     mistakes = keys%mistakes()
     call keys%start_group(bore_group, optional=.true., present_in_file=bore%present, &
-                          misplaced=misplaced)
+                          misplaced=misplaced, acts_on=acts_on_film)
+    call keys%idle(unless(bore%present, 'the file has no group &bore'))
     call read_waves(keys, bore%profile)
     call read_shims(keys, bore%profile, shims)
     call read_table(keys, bore%profile)

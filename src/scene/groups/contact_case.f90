@@ -11,6 +11,7 @@ module gfb_contact_case
   use gfb_foil_row, only: foil_row_type
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
                                  support_held
+  use gfb_key_effect, only: acts_on_film, acts_on_contacts
   implicit none (type, external)
   private
   public :: shaft_contact_case_type, read_shaft_contact_case, contact_case_type, read_contact_case
@@ -76,7 +77,8 @@ contains
     type(analysis_row_type), intent(in) :: analysis !! of the case file
 
     call keys%start_group('shaft_contact', optional=.true., present_in_file=contact%present, &
-                          misplaced=analysis%refusal('shaft_contact'))
+                          misplaced=analysis%refusal('shaft_contact'), acts_on=acts_on_film)
+    call keys%idle(unless(contact%present, 'the file has no group &shaft_contact'))
     call keys%real_key('roughness', contact%roughness, 'm', &
                        'roughness height s of shaft and foil together: asperities carry the '// &
                        'pressure p_0 exp(-h/s) where the film has the thickness h', &
@@ -113,7 +115,9 @@ contains
                                                  "needs foil = 'shell' in &model, or 'beam'")
     deflection = merge(clearance, typical_deflection(load, foil), bearing)
     call keys%start_group('contact', optional=.not. (strip .or. bearing), &
-                          present_in_file=contact%present, misplaced=misplaced)
+                          present_in_file=contact%present, misplaced=misplaced, &
+                          acts_on=acts_on_contacts)
+    call keys%idle(model%needs_bumps())
     call keys%real_key('exponent', contact%exponent, '1', &
                        'exponent of the penetration in the normal force', from_to(1.0_wp, 3.0_wp))
     contact%normal_stiffness = default_stiffness(deflection, foil, contact%exponent)
@@ -128,23 +132,11 @@ contains
                    load%support == support_held .and. strip, "has no use with support = 'held' "// &
                    'in &strip_load: nothing presses on the sleeve')
     contact%stick_length = merge(stick_in_bearing, stick_part, bearing)*deflection
+    if (model%has_bumps) call keys%idle(unless(contact%may_rub, 'there is no friction'))
     call scene_key('stick_length', contact%stick_length, 'm', &
                    'tangential displacement at which a contact goes from stick to slip', &
                    '1/5000 of the typical deflection; bearings: 1/300 of the clearance')
-    call keys%choice_key('friction_law', contact%friction_law, law_words, &
-                         'smoothed law whose stick point is dragged along by the slip, the '// &
-                         'same with a new start at each reversal, or elastic sticking up '// &
-                         'to Coulomb''s limit')
-    call keys%choice_key('friction_law_in_motion', contact%friction_law_in_motion, motion_words, &
-                         'law of foils that move, over time and with vibration_amplitudes: '// &
-                         'elastic sticking up to Coulomb''s limit, from the friction at rest '// &
-                         'on, or friction_law')
-    call keys%choice_key('friction_direction', contact%friction_direction, direction_words, &
-                         'friction opposes the slip in the tangent plane, or acts along the '// &
-                         "shaft's motion alone, as in planar models")
-    call keys%choice_key('contact_surface', contact%contact_surface, surface_words, &
-                         'forces act where the mid-surfaces are, or at the faces, half a '// &
-                         'thickness off: rubbing turns the foils, and their turning rubs')
+    call read_laws(keys, contact)
 
   contains
 
@@ -174,6 +166,27 @@ contains
                      trim(merge('this clearance', 'their load    ', bearing))//' is out of range')
     end subroutine scene_key
   end subroutine read_contact_case
+
+  !> How contacts rub.
+  subroutine read_laws(keys, contact)
+    type(case_keys_type), intent(inout) :: keys
+    type(contact_case_type), intent(inout) :: contact
+
+    call keys%choice_key('friction_law', contact%friction_law, law_words, &
+                         'smoothed law whose stick point is dragged along by the slip, the '// &
+                         'same with a new start at each reversal, or elastic sticking up '// &
+                         'to Coulomb''s limit')
+    call keys%choice_key('friction_law_in_motion', contact%friction_law_in_motion, motion_words, &
+                         'law of foils that move, over time and with vibration_amplitudes: '// &
+                         'elastic sticking up to Coulomb''s limit, from the friction at rest '// &
+                         'on, or friction_law')
+    call keys%choice_key('friction_direction', contact%friction_direction, direction_words, &
+                         'friction opposes the slip in the tangent plane, or acts along the '// &
+                         "shaft's motion alone, as in planar models")
+    call keys%choice_key('contact_surface', contact%contact_surface, surface_words, &
+                         'forces act where the mid-surfaces are, or at the faces, half a '// &
+                         'thickness off: rubbing turns the foils, and their turning rubs')
+  end subroutine read_laws
 
   !> The stiffness with which a penetration of 1e-4 of the typical deflection carries what a bump
   !> carries at that deflection [N/m^(1 + exponent)]; 0 where it is not known.

@@ -1,5 +1,5 @@
-!> `&top_foil`, the smooth foil under the film, and `&bump_foil`, the bump strip. Sizes of the strip
-!> have one value for all bumps, one a bump, or one a strip of those that lie side by side.
+!> `&bump_foil`, the bump strip. Its sizes have one value for all bumps, one a bump, or one a strip
+!> of those that lie side by side.
 module gfb_foil_cases
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, no_default, between, positive, longest_list, &
@@ -7,31 +7,16 @@ module gfb_foil_cases
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text, join
   use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends, &
-                              middle_radius, needs_journal, needs_thrust
+                              middle_radius, needs_thrust
   use gfb_bump_heights, only: crest_gaps, normal_deviations
-  use gfb_fixed_lines, only: fixed_line_corner
+  use gfb_fixed_lines, only: fixed_line_corner, fixed_line_half_flat
+  use gfb_key_effect, only: acts_on_gaps, acts_on_sheets, acts_on_shapes, acts_on_all
   implicit none (type, external)
   private
-  public :: top_foil_case_type, read_top_foil_case, initial_curvature, size_type, of_bump, &
-            of_strip, complain_of_sizes, bump_foil_case_type, read_bump_foil_case, has_flats, &
-            bumps_overlap, gap_of_crest, gap_of_corner, solid_width, has_sizes, one_bump, &
-            one_strip, strips_differ, sizes_mirror, draw_gaps, largest_gap, missing_of_bumps
-
-  integer, parameter, public :: top_foil_leading = 1  !! fixed at its leading edge
-  integer, parameter, public :: top_foil_trailing = 2 !! fixed at its trailing edge
-
-  character(len=*), parameter :: top_foil_edges(*) = [character(len=8) :: 'leading', 'trailing']
-
-  !> The top foil. A number that is not given is zero.
-  type :: top_foil_case_type
-    logical :: present = .false.        !! the group stands in the file
-    real(wp) :: thickness = 0.0_wp      !! [m]
-    real(wp) :: youngs_modulus = 0.0_wp !! [Pa]
-    real(wp) :: poissons_ratio = 0.0_wp !! [1]
-    real(wp) :: density = 0.0_wp        !! [kg/m^3]
-    integer :: fixed_edge = top_foil_trailing
-    real(wp) :: free_radius = 0.0_wp    !! of its curvature without forces; 0: it lies as it is [m]
-  end type top_foil_case_type
+  public :: size_type, of_bump, of_strip, complain_of_sizes, bump_foil_case_type, &
+            read_bump_foil_case, has_flats, bumps_overlap, gap_of_crest, gap_of_corner, &
+            solid_width, has_sizes, one_bump, one_strip, strips_differ, sizes_mirror, draw_gaps, &
+            largest_gap, missing_of_bumps
 
   character(len=*), parameter :: group = 'bump_foil'
 
@@ -41,6 +26,7 @@ module gfb_foil_cases
     character(len=43) :: meaning = ''    !! of the size
     real(wp) :: value = 0.0_wp           !! of all bumps, or the mean; 0: not known [m]
     logical :: largest = .false.         !! of those that differ the value is the largest, no mean
+    integer :: acts_on = acts_on_all     !! see `gfb_key_effect`
     real(wp), allocatable :: by_bump(:)  !! from the smallest x on; not allocated: all have one [m]
     real(wp), allocatable :: by_strip(:) !! from the smallest z on; the same [m]
   contains
@@ -75,12 +61,15 @@ module gfb_foil_cases
   !> The bump strip. A number that is not given is zero.
   type :: bump_foil_case_type
     logical :: present = .false.            !! the group stands in the file
-    type(size_type) :: thickness = size_type('thickness', 'thickness of the foil')
+    type(size_type) :: thickness = size_type('thickness', 'thickness of the foil', &
+                                            acts_on=acts_on_sheets)
     real(wp) :: youngs_modulus = 0.0_wp     !! [Pa]
     real(wp) :: poissons_ratio = 0.0_wp     !! [1]
     real(wp) :: density = 0.0_wp            !! [kg/m^3]
-    type(size_type) :: half_length = size_type('half_length', "half the chord of a bump's arc")
-    type(size_type) :: height = size_type('height', 'height of a bump', largest=.true.)
+    type(size_type) :: half_length = size_type('half_length', "half the chord of a bump's arc", &
+                                              acts_on=acts_on_shapes)
+    type(size_type) :: height = size_type('height', 'height of a bump', largest=.true., &
+                                         acts_on=acts_on_shapes)
     integer :: bumps = 0
     type(size_type) :: pitch = size_type('pitch', 'from bump to bump, arc plus flat')
     real(wp) :: width = 0.0_wp              !! of a strip, along the axis [m]
@@ -104,41 +93,6 @@ module gfb_foil_cases
 
 contains
 
-  !> Reads the group.
-  subroutine read_top_foil_case(keys, foil, thrust, needs)
-    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(top_foil_case_type), intent(out) :: foil !! what `&top_foil` asks for
-    logical, intent(in) :: thrust !! the pads are sectors, fixed where their ramp begins
-    type(needs_type), intent(in) :: needs !! of the analysis
-
-    call keys%start_group('top_foil', required=needs%top_foil, optional=.true., &
-                          present_in_file=foil%present)
-    call keys%real_key('thickness', foil%thickness, 'm', 'thickness of the foil', positive, &
-                       needs%top_foil, default=no_default)
-    call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
-                       needs%top_foil, default=no_default)
-    call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
-                       between(-1.0_wp, 0.5_wp), needs%top_foil, default=no_default)
-    call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needs%top_mass, &
-                       default=no_default)
-    if (thrust) foil%fixed_edge = top_foil_leading
-    call keys%choice_key('fixed_edge', foil%fixed_edge, top_foil_edges, 'where the foil is '// &
-                         'fixed; of thrust bearings it is leading by default')
-    call keys%real_key('free_radius', foil%free_radius, 'm', 'radius of the foil before it is '// &
-                       'put in: larger than `radius` presses it on its bumps, smaller lifts it', &
-                       positive, default='`radius`', useless=unless(.not. thrust, needs_journal))
-  end subroutine read_top_foil_case
-
-  !> Curvature of the foil without forces over that of the bore, \( \kappa_0 = 1/R_f - 1/R \).
-  elemental function initial_curvature(foil, radius) result(curvature)
-    type(top_foil_case_type), intent(in) :: foil !! what `&top_foil` asks for
-    real(wp), intent(in) :: radius !! of the bearing [m]
-    real(wp) :: curvature          !! positive: the foil is rolled more closely [1/m]
-
-    curvature = 0.0_wp
-    if (foil%free_radius > 0.0_wp) curvature = 1.0_wp/foil%free_radius - 1.0_wp/radius
-  end function initial_curvature
-
   !> Reads the value of all bumps, which need not be given where a list is.
   subroutine read_value(self, keys, needed, default)
     class(size_type), intent(inout) :: self !! the size
@@ -150,7 +104,8 @@ contains
     words = no_default
     if (present(default)) words = default
     call keys%real_key(trim(self%name), self%value, 'm', trim(self%meaning), positive, &
-                       needed .and. self%key_in(keys) == self%name, default=words)
+                       needed .and. self%key_in(keys) == self%name, default=words, &
+                       acts_on=self%acts_on)
   end subroutine read_value
 
   !> Reads the size bump by bump.
@@ -161,7 +116,7 @@ contains
     real(wp), allocatable :: values(:)
 
     call bump_list_key(keys, 'bump_'//trim(self%name), values, bumps, trim(self%meaning), &
-                       positive, '`'//trim(self%name)//'` of all bumps')
+                       positive, '`'//trim(self%name)//'` of all bumps', self%acts_on)
     if (keys%key%given) call refuse_both(keys, 'bump_'//trim(self%name), trim(self%name))
     if (.not. allocated(values)) return
     self%value = value_of(self, values)
@@ -183,7 +138,7 @@ contains
     words = '`'//trim(self%name)//'` of all strips'
     if (present(default)) words = default
     call shared_list_key(keys, name, values, 'strip', strips, 'smallest z', trim(self%meaning), &
-                         rule, words, useless)
+                         rule, words, useless, self%acts_on)
     if (useless /= '') return
     if (keys%key%given) then
       call refuse_both(keys, name, trim(self%name))
@@ -214,7 +169,7 @@ contains
   end function value_of
 
   !> One value a bump from the smallest x on, or one that stands for all.
-  subroutine bump_list_key(keys, name, list, bumps, meaning, rule, default)
+  subroutine bump_list_key(keys, name, list, bumps, meaning, rule, default, acts_on)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     character(len=*), intent(in) :: name !! of the key
     real(wp), allocatable, intent(out) :: list(:) !! not allocated where none is right [m]
@@ -222,11 +177,14 @@ contains
     character(len=*), intent(in) :: meaning !! of the key
     type(rule_type), intent(in) :: rule !! that each value keeps
     character(len=*), intent(in) :: default !! in words
-    call shared_list_key(keys, name, list, 'bump', bumps, 'leading end', meaning, rule, default, '')
+    integer, intent(in) :: acts_on !! `acts_on_sheets`, ...
+    call shared_list_key(keys, name, list, 'bump', bumps, 'leading end', meaning, rule, default, &
+                         '', acts_on)
   end subroutine bump_list_key
 
   !> One value a bump or strip, or one that stands for all.
-  subroutine shared_list_key(keys, name, list, what, number, from, meaning, rule, default, useless)
+  subroutine shared_list_key(keys, name, list, what, number, from, meaning, rule, default, &
+                             useless, acts_on)
     type(case_keys_type), intent(inout) :: keys
     character(len=*), intent(in) :: name, meaning, default, useless
     real(wp), allocatable, intent(out) :: list(:) !! not allocated where none is right [m]
@@ -234,11 +192,12 @@ contains
     integer, intent(in) :: number !! of them, 0 where not known
     character(len=*), intent(in) :: from !! where the first is
     type(rule_type), intent(in) :: rule
+    integer, intent(in) :: acts_on
     real(wp), allocatable :: values(:)
 
     call keys%real_list_key(name, values, longest_list, 'm', meaning//', one value a '//what// &
                             ' from the '//from//' on, or one for all', rule, .false., default, &
-                            useless)
+                            useless, acts_on)
     if (.not. keys%last_key_is_right() .or. number < 1) return
     if (size(values) == 1) values = spread(values(1), 1, number)
     call keys%rule(group, name, size(values) /= number, 'must have one value, or one a '// &
@@ -352,13 +311,13 @@ contains
     logical :: gaps    !! are given
 
     call keys%start_group(group, required=needs%bumps, optional=.true., &
-                          present_in_file=foil%present)
+                          present_in_file=foil%present, acts_on=acts_on_all)
     call foil%thickness%read_value(keys, needs%bumps)
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
-                       needs%bumps, default=no_default)
+                       needs%bumps, default=no_default, acts_on=acts_on_sheets)
     call keys%real_key('poissons_ratio', foil%poissons_ratio, '1', "Poisson's ratio", &
                        between(-1.0_wp, 0.5_wp), needs%bumps, default=no_default, &
-                       given=foil%poissons_ratio_given)
+                       given=foil%poissons_ratio_given, acts_on=acts_on_sheets)
     call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needs%mass, &
                        default=no_default)
     call foil%half_length%read_value(keys, needs%bumps)
@@ -378,16 +337,18 @@ contains
     call keys%choice_key('fixed_edge', foil%fixed_edge, edge_words, 'where the strip is fixed')
     call keys%choice_key('fixed_line', foil%fixed_line, line_words, &
                          'the strip begins at its fixed edge with an arc, a flat, or half a flat')
+    ! Else the first crest stands as far from the weld as half a bump is long.
+    if (foil%fixed_line /= fixed_line_half_flat) call keys%act_on('half_length', acts_on_all)
     call keys%choice_key('strip_form', foil%strip_form, form_words, 'under a sector crests are '// &
                          "rays, or parallel to the ray in the pad's middle", &
                          useless=unless(bearing%is_thrust(), needs_thrust))
     call bump_list_key(keys, 'crest_gap', foil%crest_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s crest and the top foil or plate', not_negative, &
-                       '0: all crests touch')
+                       '0: all crests touch', acts_on_gaps)
     gaps = keys%key%given
     call bump_list_key(keys, 'corner_gap', foil%corner_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s two corner lines and the sleeve', not_negative, &
-                       '0: all corners touch')
+                       '0: all corners touch', acts_on_gaps)
     call read_height_deviation(keys, foil, gaps, foil%strips*bearing%all_pads())
     call keys%real_list_key('crest_angles', foil%crest_angles, longest_list, 'rad', 'where '// &
                             'the crests under a plate stand, from the leading edge of the pad '// &

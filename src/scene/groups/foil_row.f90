@@ -27,7 +27,7 @@ module gfb_foil_row
     !> why Young's modulus by temperature has no use; empty: it has one
     character(len=50) :: without_modulus = ''
   contains
-    procedure :: is_known
+    procedure :: is_known, needs_bumps
   end type foil_row_type
 
   type(foil_row_type), parameter, public :: foil_unknown = foil_row_type()
@@ -66,4 +66,14 @@ contains
     class(foil_row_type), intent(in) :: self !! the foil model, as far as it is known
     known = self%number > 0
   end function is_known
+
+  !> Why keys of meshed foils have no effect; empty where they have one.
+  pure function needs_bumps(self) result(words)
+    class(foil_row_type), intent(in) :: self !! the foil model
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (self%has_bumps) return
+    words = "it needs foil = 'shell' in &model, or 'beam', not '"//trim(self%word)//"'"
+  end function needs_bumps
 end module gfb_foil_row

@@ -2,13 +2,14 @@
 module gfb_gas_case
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, longest_list, any_value, not_negative, positive, &
-                           rule_type
+                           rule_type, unless
   use gfb_gas_law, only: gas_law_type, gas_state, gas_state_type, sutherland_viscosity, &
                          density_peng_robinson, density_table, monotone_table, table_at, &
                          peng_robinson, saturate, amount_at, gas_constant, &
                          viscosity_constant, viscosity_sutherland, viscosity_power
   use gfb_analysis_row, only: analysis_row_type
   use gfb_text, only: text
+  use gfb_key_effect, only: acts_on_film
   implicit none (type, external)
   private
   public :: gas_case_type, read_gas_case, follow_ambient
@@ -63,7 +64,7 @@ contains
     mistakes = keys%mistakes()
     needed = analysis%takes(group)
     call keys%start_group(group, required=needed, optional=.not. needed, &
-                          misplaced=analysis%refusal(group))
+                          misplaced=analysis%refusal(group), acts_on=acts_on_film)
     said%heated = needed .and. keys%line_of_group('thermal') > 0
     said%table = keys%holds(group, 'density_table_pressure')
     said%viscosities = keys%holds(group, 'density_table_viscosity')
@@ -85,6 +86,7 @@ contains
                    .not. said%heated, 'needs &thermal: without it the temperature is even')
     by_law = said%viscosities .or. gas%viscosity_law == viscosity_sutherland
     gas%has_viscosity_law = by_law
+    call keys%idle(unless(.not. by_law, 'a law or a table gives the viscosity'), 'viscosity')
     call keys%real_key('mean_free_path', gas%law%mean_free_path, 'm', 'mean free path of the '// &
                        'molecules at `ambient_pressure`, for slip at the surfaces; 0: no slip', &
                        not_negative)

@@ -5,6 +5,7 @@ module gfb_model_case
   use gfb_bearing_case, only: needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type, unless, from_to, positive, longest_list
   use gfb_foil_row, only: foil_row_type, foil_rows, foil_shell
+  use gfb_key_effect, only: acts_on_all
   implicit none (type, external)
   private
   public :: model_case_type, read_model_case
@@ -85,7 +86,7 @@ contains
     integer :: foil !! its number, 0 where it is not known
 
     journal = unless(.not. thrust, needs_journal)
-    call keys%start_group('model', required=analysis%has_film)
+    call keys%start_group('model', required=analysis%has_film, acts_on=acts_on_all)
     foil = 0
     if (analysis%is_structure()) foil = foil_shell%number
     call keys%choice_key('foil', foil, foil_rows%word, 'model of the foils', analysis%has_film)
@@ -114,6 +115,24 @@ contains
     call keys%rule('model', 'film_order', model%film_order == film_order_biquadratic .and. &
                    model%film_scheme == film_scheme_supg, 'cannot be 2 where film_scheme is '// &
                    "'supg': upwinding is for bilinear elements")
+    call read_foundation(keys, model, thrust)
+    call read_crest_springs(keys, model)
+    call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
+                   model%has_local_springs(), 'cannot be '// &
+                   "'partitioned' where foundation_pressure is 'local': springs under each "// &
+                   'pressure have no equations of their own')
+  end subroutine read_model_case
+
+  !> Springs under every point of the film.
+  subroutine read_foundation(keys, model, thrust)
+    type(case_keys_type), intent(inout) :: keys
+    type(model_case_type), intent(inout) :: model
+    logical, intent(in) :: thrust !! the pads are sectors of a ring
+    character(len=:), allocatable :: why !! its keys have no effect
+
+    why = unless(model%foil%has_foundation, "it needs foil = 'elastic_foundation' in &model")
+    if (model%foil%has_crest_springs) why = "foil = '"//trim(model%foil%word)//"' does not know it"
+    call keys%idle(why)
     call keys%real_key('foundation_stiffness', model%foundation_stiffness, 'N/m^3', &
                        'pressure over deflection of the elastic foundation', positive, &
                        default='Walowit-Anno from `&bump_foil`')
@@ -146,12 +165,8 @@ contains
     if (model%foundation_pressure == foundation_pressure_radial_mean) then
       model%foundation_pressure = foundation_pressure_axial_mean
     end if
-    call read_crest_springs(keys, model)
-    call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
-                   model%has_local_springs(), 'cannot be '// &
-                   "'partitioned' where foundation_pressure is 'local': springs under each "// &
-                   'pressure have no equations of their own')
-  end subroutine read_model_case
+    call keys%idle('')
+  end subroutine read_foundation
 
   !> What a plate lies on.
   subroutine read_crest_springs(keys, model)

@@ -9,12 +9,15 @@ module gfb_motion_cases
   use gfb_maxwell_arm, only: maxwell_arm_type
   use gfb_analysis_row, only: analysis_row_type, analysis_equilibrium, analysis_fixed_position
   use gfb_operation_case, only: operation_case_type, angular_speed
+  use gfb_key_effect, only: acts_on_all
   implicit none (type, external)
   private
   public :: foil_damping_case_type, read_foil_damping_case, rotor_case_type, read_rotor_case, &
             unbalance_case_type, read_unbalance_case, dynamics_case_type, read_dynamics_case, &
             analysis_of_state, frequencies_at, periodic_case_type, read_periodic_case, &
             transient_case_type, read_transient_case, duration_of
+
+  character(len=*), parameter :: needs_dynamics = "it needs analysis = 'linear_dynamics'"
 
   integer, parameter, public :: mass_auto = 1 !! the foil has its mass where it counts
   integer, parameter, public :: mass_on = 2   !! it has it
@@ -137,7 +140,8 @@ contains
     massless = unless(.not. analysis%takes('periodic'), &
                       "has no use with analysis = 'periodic': there foils have no mass")
     call keys%start_group('foil_damping', optional=.not. moves, &
-                          misplaced=analysis%refusal('foil_damping'))
+                          misplaced=analysis%refusal('foil_damping'), acts_on=acts_on_all)
+    call keys%idle(unless(analysis%takes('dynamics'), needs_dynamics))
     call keys%real_key('foundation_damping', damping%foundation_damping, 'N s/m^3', &
                        'viscous damping of the elastic foundation, pressure over velocity', &
                        not_negative)
@@ -181,7 +185,8 @@ contains
     along = unless(.not. thrust, needs_journal//': the rotor moves along its axis')
     misplaced = analysis%refusal(group)
     call keys%start_group(group, optional=.true., present_in_file=rotor%present, &
-                          misplaced=misplaced)
+                          misplaced=misplaced, acts_on=acts_on_all)
+    call keys%idle(unless(rotor%present, 'the file has no group &rotor'))
     call keys%real_key(mass, rotor%mass, 'kg', &
                        'mass that this bearing carries: half of a rotor on two; the load is '// &
                        'given apart from it', positive, .true.)
@@ -251,7 +256,8 @@ contains
 
     dynamics%present = analysis%takes('dynamics')
     call keys%start_group('dynamics', required=dynamics%present, optional=.not. dynamics%present, &
-                          misplaced=analysis%refusal('dynamics'))
+                          misplaced=analysis%refusal('dynamics'), acts_on=acts_on_all)
+    call keys%idle(unless(dynamics%present, needs_dynamics))
     call keys%real_list_key('frequencies', dynamics%frequencies, longest_list, 'rad/s', &
                             'circular frequencies at which stiffness and damping are asked for', &
                             positive, .false., 'required without `frequency_ratios`')

@@ -6,6 +6,7 @@ module gfb_operation_case
   use gfb_case_keys, only: case_keys_type, no_default, any_value, positive, unless
   use gfb_text, only: text
   use gfb_analysis_row, only: analysis_row_type
+  use gfb_key_effect, only: acts_on_point
   implicit none (type, external)
   private
   public :: operation_case_type, read_operation_case, angular_speed, size_of_gap
@@ -62,7 +63,7 @@ contains
     thrust = unless(bearing%kind /= kind_journal, needs_thrust)
     call keys%start_group('operation', required=analysis%has_film, &
                           optional=analysis%is_structure(), &
-                          misplaced=analysis%refusal('operation'))
+                          misplaced=analysis%refusal('operation'), acts_on=acts_on_point)
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
                        any_value, analysis%has_film)
     if (operation%speed_rpm < 0.0_wp) call keys%complain('operation', 'speed_rpm', other_sense)
@@ -80,11 +81,13 @@ contains
                               required=analysis%holds .and. .not. ring, &
                               default='required for a fixed position', &
                               given=operation%eccentricity_given, useless=journal)
+    call keys%idle(unless(.not. analysis%holds, 'the gap is given'))
     call keys%real_key('axial_load', operation%axial_load, 'N', 'force that presses the runner '// &
                        'of a thrust bearing on its pads', &
                        merge(any_value, positive, bearing%play > 0.0_wp), &
                        ring .and. analysis%floats, default=no_default, &
                        useless=thrust)
+    call keys%idle(unless(analysis%holds, 'the search for the equilibrium starts there'))
     call keys%real_key('axial_gap', operation%axial_gap, 'm', 'gap from the land of its pads '// &
                        'to its runner, on the axis, foils at rest: held, or where the search '// &
                        'for an equilibrium starts', positive, &
@@ -102,6 +105,7 @@ contains
                    'tilt is held, too')
     call keys%real_vector_key('tilt', operation%tilt, 'rad', &
                               'rotation of the sleeve relative to the shaft, about x and y')
+    call keys%idle('it chooses the first answer, the others follow that')
     call keys%real_list_key('leading_edge_lift', operation%leading_edge_lift, most_pads, 'm', &
                             'look for the equilibrium whose top foil''s free leading edge is '// &
                             'lifted this far towards the shaft at the midplane, or, negative, '// &

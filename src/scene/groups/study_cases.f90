@@ -2,12 +2,14 @@
 !> `&capacity` and `&output`.
 module gfb_study_cases
   use gfb_kinds, only: wp
-  use gfb_case_keys, only: case_keys_type, from_to, at_least, between, not_negative, positive
+  use gfb_case_keys, only: case_keys_type, from_to, at_least, between, not_negative, positive, &
+                           unless
   use gfb_analysis_row, only: analysis_row_type, limit_speed, limit_tilt
   use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, strip
   use gfb_text, only: text
   use gfb_sweep_case, only: swept_key_type
+  use gfb_key_effect, only: acts_on_all
   implicit none (type, external)
   private
   public :: output_case_type, read_output_case, modes_case_type, read_modes_case, &
@@ -275,7 +277,8 @@ contains
     capacity%limit = analysis%limit
     by_gap = capacity%limit > 0 .and. capacity%limit /= limit_speed
     call keys%start_group('capacity', required=by_gap, optional=.not. by_gap, &
-                          misplaced=analysis%refusal('capacity'))
+                          misplaced=analysis%refusal('capacity'), acts_on=acts_on_all)
+    call keys%idle(unless(capacity%limit > 0, 'no limit is looked for'))
     call keys%real_key('smallest_gap', capacity%smallest_gap, 'm', &
                        'film thickness at which load or tilt has reached its limit', positive, &
                        required=by_gap, &

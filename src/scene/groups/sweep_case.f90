@@ -8,6 +8,7 @@ module gfb_sweep_case
   use gfb_operation_case, only: operation_case_type, other_sense
   use gfb_analysis_row, only: analysis_row_type
   use gfb_text, only: text
+  use gfb_key_effect, only: acts_on_nothing
   implicit none (type, external)
   private
   public :: sweep_case_type, read_sweep_case, operation_at, swept_keys, named_keys
@@ -36,6 +37,7 @@ module gfb_sweep_case
   type, public :: swept_key_type
     character(len=:), allocatable :: group, name !! in lower case
     integer :: element = 0 !! of the list, or `every_element`; 0: no index is given
+    integer :: acts_on = acts_on_nothing !! see `gfb_key_effect`; once it has been looked up
   contains
     procedure :: label, is_gap
   end type swept_key_type

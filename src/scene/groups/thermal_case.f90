@@ -11,6 +11,7 @@ module gfb_thermal_case
                              usual_words
   use gfb_analysis_row, only: analysis_row_type
   use gfb_text, only: text
+  use gfb_key_effect, only: acts_on_film
   implicit none (type, external)
   private
   public :: thermal_case_type, read_thermal_case, estimated_bump_conductance
@@ -83,7 +84,8 @@ contains
 
     journal = unless(.not. thrust, needs_journal)
     call keys%start_group('thermal', optional=.true., present_in_file=thermal%present, &
-                          misplaced=analysis%refusal('thermal'))
+                          misplaced=analysis%refusal('thermal'), acts_on=acts_on_film)
+    call keys%idle(unless(thermal%present, 'the file has no group &thermal'))
     if (gas%temperature > 0.0_wp) thermal%ambient_temperature = gas%temperature
     call keys%real_key('ambient_temperature', thermal%ambient_temperature, 'K', 'temperature '// &
                        'of the gas that is drawn in', from_to(coldest, hottest), &

@@ -59,7 +59,8 @@ contains
   end function has_no_use
 
   !> One real number.
-  subroutine real_key(self, name, value, unit, meaning, rule, required, default, given, useless)
+  subroutine real_key(self, name, value, unit, meaning, rule, required, default, given, useless, &
+                      acts_on)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), intent(inout) :: value !! [its unit] the default on entry
@@ -69,10 +70,11 @@ contains
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     logical, intent(out), optional :: given !! the file has it
     character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
+    integer, intent(in), optional :: acts_on !! `acts_on_film`, ...; default: as its group
     real(wp) :: values(1)
 
     if (present(given)) given = .false.
-    call self%describe(name, real_words, unit, meaning)
+    call self%describe(name, real_words, unit, meaning, acts_on)
     if (self%has_no_use(name, useless)) return
     values = value
     call self%take_numbers(single, values, rule, required, default, given)
@@ -126,7 +128,7 @@ contains
 
   !> A list of real numbers that must be given, unless said otherwise; empty where it is not.
   subroutine real_list_key(self, name, values, most, unit, meaning, rule, required, default, &
-                           useless)
+                           useless, acts_on)
     class(case_keys_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the key
     real(wp), allocatable, intent(out) :: values(:) !! [their unit] as many as the file gives
@@ -136,12 +138,13 @@ contains
     logical, intent(in), optional :: required !! a case without it is wrong
     character(len=*), intent(in), optional :: default !! shown where the default is no plain number
     character(len=*), intent(in), optional :: useless !! why it has no use; empty where it has one
+    integer, intent(in), optional :: acts_on !! `acts_on_film`, ...; default: as its group
     integer, allocatable :: elements(:)
     integer :: i
     logical :: must
 
     allocate (values(0))
-    call self%describe(name, list_words, unit, meaning)
+    call self%describe(name, list_words, unit, meaning, acts_on)
     if (self%has_no_use(name, useless)) return
     must = .true.
     if (present(required)) must = required

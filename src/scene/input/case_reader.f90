@@ -3,6 +3,7 @@ module gfb_case_reader
   use gfb_kinds, only: wp
   use gfb_complaints, only: complaints_type
   use gfb_errors, only: error_type, fail, status_input
+  use gfb_key_effect, only: acts_on_nothing
   use gfb_key_book, only: group_type, key_type, key_book_type, no_default, choices
   use gfb_namelist_file, only: entry_at, find_elements, is_entry_of, longest_list, moves_to, &
                                namelist_file_type, stands_in
@@ -25,10 +26,12 @@ module gfb_case_reader
     integer, private :: mistakes_before = 0 !! the key that is being read
     integer, private :: keys_scanned_wrong = 0 !! whose mistakes the scanner has told
     logical, private :: strict = .false.    !! warnings are mistakes
+    integer, private :: group_acts_on = acts_on_nothing !! where its keys do not say otherwise
+    character(len=:), allocatable, private :: why_idle  !! no answer follows the next keys
   contains
     procedure :: open_text, start_group, finish, report, complain, rule, refuse, warn, warn_of_line
     procedure :: hint_lines, warning_lines, add_new, meant, holds, last_key_is_right, mistakes
-    procedure :: line_of_group
+    procedure :: line_of_group, idle, act_on
     procedure :: describe, begin_key, end_key, end_numbers, take_real, take_choice, complain_value
   end type case_reader_type
 
@@ -51,15 +54,19 @@ contains
   end subroutine open_text
 
   !> Begins a group. The keys of an optional group that is absent are neither read nor asked for.
-  subroutine start_group(self, name, required, optional, present_in_file, misplaced)
+  subroutine start_group(self, name, required, optional, present_in_file, misplaced, acts_on)
     class(case_reader_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: name !! of the group
     logical, intent(in), optional :: required !! its absence is a mistake
     logical, intent(in), optional :: optional !! without it, what it describes is not there
     logical, intent(out), optional :: present_in_file !! the file has the group
     character(len=*), intent(in), optional :: misplaced !! why it does not fit; empty where it does
+    integer, intent(in), optional :: acts_on !! what its keys act on: `acts_on_film`, ...
     type(group_type) :: group
 
+    self%group_acts_on = acts_on_nothing
+    if (present(acts_on)) self%group_acts_on = acts_on
+    self%why_idle = ''
     group%name = name
     group%line = self%line_of_group(name)
     if (present(required)) group%required = required
@@ -72,6 +79,32 @@ contains
       call self%complaints%add(group%line, '&'//name//': the group '//misplaced)
     end if
   end subroutine start_group
+
+  !> Says why no answer follows the next keys of the group, or one that has been read.
+  subroutine idle(self, why, name)
+    class(case_reader_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: why !! empty: answers follow them
+    character(len=*), intent(in), optional :: name !! of the key that has been read
+    integer :: place
+
+    if (present(name)) then
+      place = self%book%place_of(self%key%group, name)
+      self%book%keys(place)%idle = why
+    else
+      self%why_idle = why
+    end if
+  end subroutine idle
+
+  !> Says what a key of the group acts on, where what has been read behind it decides that.
+  subroutine act_on(self, name, acts_on)
+    class(case_reader_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: name !! of the key
+    integer, intent(in) :: acts_on !! `acts_on_film`, ...
+    integer :: place
+
+    place = self%book%place_of(self%key%group, name)
+    self%book%keys(place)%acts_on = acts_on
+  end subroutine act_on
 
   !> Where a group begins, be it not read yet; 0 where the file does not have it.
   pure integer function line_of_group(self, name) result(line)
@@ -307,12 +340,16 @@ contains
   end function mistakes
 
   !> Notes what a key is.
-  subroutine describe(self, name, type_words, unit, meaning)
+  subroutine describe(self, name, type_words, unit, meaning, acts_on)
     class(case_reader_type), intent(inout) :: self
     character(len=*), intent(in) :: name, type_words !! of the key; kind of value, in words
     character(len=*), intent(in) :: unit    !! '1' for a pure number, empty for words
     character(len=*), intent(in) :: meaning !! of the key, a sentence
+    integer, intent(in), optional :: acts_on !! default: what its group acts on
 
+    self%key%idle = self%why_idle
+    self%key%acts_on = self%group_acts_on
+    if (present(acts_on)) self%key%acts_on = acts_on
     self%key%name = name
     self%key%type_words = type_words
     self%key%unit = unit

@@ -3,6 +3,7 @@
 module gfb_key_book
   use gfb_kinds, only: wp
   use gfb_complaints, only: complaints_type, shown
+  use gfb_key_effect, only: acts_on_nothing
   use gfb_foreign_characters, only: is_spoilt
   use gfb_moved_keys, only: home_of
   use gfb_namelist_file, only: namelist_file_type
@@ -48,7 +49,9 @@ module gfb_key_book
     logical :: is_default = .false. !! it is given the value that holds without it
     logical :: is_set = .false.     !! the value is more than a placeholder
     logical :: is_echoed = .false.  !! its group is
+    integer :: acts_on = acts_on_nothing         !! `acts_on_film`, ...
     character(len=:), allocatable :: why_useless !! in words, where it has no use in this case
+    character(len=:), allocatable :: idle        !! why no answer follows it here; empty: one does
   end type key_type
 
   !> All groups and keys.

@@ -7,7 +7,8 @@ module gfb_key_differences
   use gfb_operation_case, only: angular_speed
   use gfb_film_surface, only: translations, axial_coordinate
   use gfb_operating_point, only: operating_point_type
-  use gfb_fixed_lines, only: fixed_line_half_flat
+  use gfb_key_effect, only: acts_on_point, acts_on_film, acts_on_contacts, acts_on_gaps, &
+                            acts_on_sheets, acts_on_shapes
   implicit none (type, external)
   private
   public :: difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
@@ -44,20 +45,15 @@ contains
     type(difference_type) :: difference
     real(wp), parameter :: large = 5.0e-4_wp
 
-    select case (key%group)
-    case ('operation', 'gas', 'bore', 'contact', 'shaft_contact', 'thermal')
+    select case (key%acts_on)
+    case (acts_on_point, acts_on_film, acts_on_contacts)
       difference = difference_type(small, central)
+    case (acts_on_gaps)
+      difference = difference_type(0.01_wp, forward)
+    case (acts_on_sheets)
+      difference = difference_type(large, central)
     case default
-      select case (key%name)
-      case ('clearance', 'preload', 'preload_offset', 'assembly_interference')
-        difference = difference_type(small, central)
-      case ('crest_gap', 'corner_gap')
-        difference = difference_type(0.01_wp, forward)
-      case ('thickness', 'bump_thickness', 'strip_thickness', 'youngs_modulus', 'poissons_ratio')
-        difference = difference_type(large, central)
-      case default
-        return
-      end select
+      return
     end select
   end function difference_of
 
@@ -72,7 +68,7 @@ contains
     integer :: i
 
     value = parameter%value
-    if (parameter%key%group == 'operation') then
+    if (parameter%key%acts_on == acts_on_point) then
       select case (parameter%key%name)
       case ('load')
         value = norm2(point%load(:translations))
@@ -121,33 +117,24 @@ contains
     end select
   end function changed_point
 
-  !> Whether a key moves neither the film's mesh nor the crests.
-  pure logical function keeps_meshes(scene, key) result(keeps)
-    type(scene_type), intent(in) :: scene !! with the key
+  !> Whether a key moves neither the film's mesh nor the crests. A bump, or a strip, with a size of
+  !> its own is built anew.
+  elemental logical function keeps_meshes(key) result(keeps)
     type(swept_key_type), intent(in) :: key !! that changes
 
-    associate (name => key%name)
-      select case (key%group)
-      case ('gas', 'bore', 'contact', 'shaft_contact', 'thermal')
-        keeps = .true.
-      case ('bearing')
-        keeps = name == 'clearance' .or. name == 'assembly_interference'
-      case ('pads')
-        keeps = name == 'preload' .or. name == 'preload_offset'
-      case ('top_foil', 'bump_foil')
-        keeps = key%is_gap() .or. any(name == [character(len=14) :: 'thickness', 'youngs_modulus', &
-                                               'poissons_ratio', 'height', 'free_radius'])
-        ! else the first crest stands as far from the weld as half a bump is long
-        if (name == 'half_length') keeps = scene%bump_foil%fixed_line == fixed_line_half_flat
-      case default
-        keeps = .false.
-      end select
-    end associate
+    select case (key%acts_on)
+    case (acts_on_film, acts_on_contacts, acts_on_gaps)
+      keeps = .true.
+    case (acts_on_sheets, acts_on_shapes)
+      keeps = key%element == 0
+    case default
+      keeps = .false.
+    end select
   end function keeps_meshes
 
   !> Whether a key is one of the foils themselves: their sheets and shapes, not where they touch.
-  pure logical function changes_foils(key) result(changes)
+  elemental logical function changes_foils(key) result(changes)
     type(swept_key_type), intent(in) :: key !! that changes
-    changes = (key%group == 'top_foil' .or. key%group == 'bump_foil') .and. .not. key%is_gap()
+    changes = key%acts_on == acts_on_sheets .or. key%acts_on == acts_on_shapes
   end function changes_foils
 end module gfb_key_differences

@@ -23,6 +23,7 @@ module gfb_sensitivity
   use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
   use gfb_newton, only: newton_type
   use gfb_corrected_solve, only: solve_corrected
+  use gfb_key_effect, only: acts_on_point, acts_on_film
   use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
                                 place_e, place_force, place_torque, place_speed, place_extremes, place_heat
@@ -276,7 +277,7 @@ contains
     work = 0.0_wp
     problem = ''
     valid = .true.
-    if (parameter%key%group == 'operation') then
+    if (parameter%key%acts_on == acts_on_point) then
       call evaluate_operation(parameter, value, bearing, answer, residual, number, valid)
     else
       call scene_with_key(scene, parameter%key, value, there, error, at)
@@ -286,7 +287,7 @@ contains
       end if
       call keep_elements(scene, there)
       ! Stresses of changed foils, condensed parts with them, are those of foils built anew.
-      if (scene%model%foil%has_bumps .and. keeps_meshes(scene, parameter%key) .and. &
+      if (scene%model%foil%has_bumps .and. keeps_meshes(parameter%key) .and. &
           .not. (derives_stress(scene%sensitivity) .and. changes_foils(parameter%key))) then
         call evaluate_in_place(scene, there, parameter%key, bearing, answer, residual, number, work, valid, error)
       else
@@ -331,15 +332,10 @@ contains
     call take_numbers(there, bearing)
     call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
     number = 0.0_wp ! they stay where the foils alone are others
-    select case (key%group)
-    case ('contact', 'top_foil', 'bump_foil')
-      if (bearing%heat%present) number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
-    case default
-      number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
-    end select
+    if (key%acts_on == acts_on_film .or. bearing%heat%present) number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call take_numbers(scene, bearing)
     of_bumps = key%group == 'bump_foil'
-    if (key%is_gap() .or. .not. (of_bumps .or. key%group == 'top_foil')) return
+    if (.not. changes_foils(key)) return
     do i = 1, size(answer%motion)
       associate (pad => bearing%pad(i), motion => answer%motion(i))
         if (of_bumps) then

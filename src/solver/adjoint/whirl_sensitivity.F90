@@ -35,7 +35,8 @@ module gfb_whirl_sensitivity
   use gfb_foil_weighing, only: give_mass
   use gfb_whirl, only: whirl_type, whirl_rates
   use gfb_corrected_solve, only: solve_corrected
-  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, by_answer
+  use gfb_key_effect, only: acts_on_point, acts_on_contacts
+  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils, by_answer
   implicit none (type)
   private
   public :: derive_whirl
@@ -305,7 +306,7 @@ contains
     value = present_value(scene, parameter, bearing%point, at)
     difference = difference_of(parameter%key)
     ! Long steps where nothing of contacts changes, for stiff ones have most of what is rounded.
-    if (parameter%key%group /= 'contact' .and. difference%part < by_answer(1)%part) difference = by_answer(1)
+    if (parameter%key%acts_on /= acts_on_contacts .and. difference%part < by_answer(1)%part) difference = by_answer(1)
     if (parameter%key%is_gap()) difference = of_gap
     step = step_of(scene, parameter%key, difference, value)
     problem = ''
@@ -348,7 +349,7 @@ contains
     logical :: moved
 
     matrix = 0.0_wp
-    if (parameter%key%group == 'operation') then
+    if (parameter%key%acts_on == acts_on_point) then
       before = bearing%point
       bearing%point = changed_point(parameter, value, before)
       call evaluate(scene, bearing)
@@ -395,8 +396,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(swept_key_type), intent(in) :: key
 
-    keeps = scene%model%foil%has_bumps .and. keeps_meshes(scene, key)
-    if (key%group == 'top_foil' .or. key%group == 'bump_foil') keeps = keeps .and. key%is_gap()
+    keeps = scene%model%foil%has_bumps .and. keeps_meshes(key) .and. .not. changes_foils(key)
   end function keeps_foils
 
   !> Derivative of the coefficients along a change of the answer.
