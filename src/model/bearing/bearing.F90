@@ -5,35 +5,27 @@
 !> unknowns, fields and scalars of further blocks of equations, and those of the shaft's coordinates that are unknowns: \( (e_x, e_y) \) where it floats, with its tilts
 !> where a rotor has two bearings. Newton sees them divided by their sizes (ambient pressure, clearance), and the
 !> equations by the sizes of their terms.
-!>
-!> Contacts that open and close along a Newton step.
-!>
-!> Within a step each contact's normal force is a straight line; where its penetration changes its
-!> sign the line is another one, open or closed. Friction keeps its linearisation, but for what
-!> follows the normal force.
 module gfb_bearing
   use petscmat
   use gfb_kinds, only: wp
-  use gfb_contact_law, only: contact_law_type, friction_force
-  use gfb_contact_point, only: add_at_contact
-  use gfb_contact_set, only: contact_set_type
+  use gfb_archive, only: archive_type
+  use gfb_natural_order, only: natural_order_type
+  use gfb_contact_path, only: begin_contact_path, next_contact, switch_contact, never
   use gfb_petsc_session, only: this_rank, rank_count, sum_over_ranks, largest_over_ranks
   use gfb_solid_contact, only: contact_pressure
   use gfb_film_load, only: film_forces
   use gfb_film_surface, only: shaft_coordinates, translations
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type, contact_name
-  use gfb_blocks, only: blocks_type, block_type, create_blocks
+  use gfb_blocks, only: blocks_type
   use gfb_local_exchange, only: local_exchange_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_heat, only: film_heat_type, growth_of, moduli_at
+  use gfb_bearing_heat, only: film_heat_type, moduli_at
+  use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
+  use gfb_spring_history, only: foil_dampers_type
   implicit none (type)
   private
-  public :: begin_contact_path, next_contact, switch_contact, number_unknowns, scale_unknowns, places_of
-
-  integer, parameter :: normal = 3 !! component of an approach
-  !> Share of a step at which no contact changes; far below `huge`, for a step that diverges is longer than a metre [1]
-  real(wp), parameter :: never = 1.0e30_wp
+  public :: places_of
 
   !> A state of a bearing, as its equations ask for it.
   type, public :: bearing_state_type
@@ -44,9 +36,18 @@ module gfb_bearing
     logical :: fixed = .false.           !! the shaft's equations are its place's
   end type bearing_state_type
 
-  !> A block of a bearing's equations beside those of its pads: unknowns of its own, what it adds to the residual and to the matrix.
+  !> A field of a block at the nodes of all films, as result files have it.
+  type, public :: shown_field_type
+    character(len=24) :: name = ''
+    character(len=8) :: unit = ''     !! SI
+    character(len=40) :: meaning = ''
+  end type shown_field_type
+
+  !> A block of a bearing's equations beside those of its pads: unknowns of its own, what it adds to the residual and to the matrix,
+  !> what it remembers over a step of time.
   !>
-  !> Whoever numbers, scales, assembles, orders, saves or transfers a bearing goes through its list of blocks. The unknowns are
+  !> Whoever numbers, scales, assembles, orders, saves or transfers a bearing, moves it in time, shows its fields or derives its
+  !> numbers goes through its list of blocks. The unknowns are
   !> fields at the nodes of all films, or scalars of all pads together, which the last rank owns; what a block leaves out it does
   !> not have. None of its procedures is a function: gfortran 12 frees a pointer to one whose result is allocatable.
   type, public :: bearing_block_type
@@ -57,13 +58,38 @@ module gfb_bearing
     real(wp) :: start = 0.0_wp         !! value of each where nothing is known of it, in SI
     logical :: positive = .false.      !! no state has others
     logical :: has_film = .false.      !! its equations are those of the films, too: pads have no term for them
+    logical :: is_slow = .false.       !! its unknowns change in seconds: where a shaft moves, in milliseconds, they are held
+    character(len=32) :: mover = ''    !! what of it may make answers along a path turn back
     integer, allocatable :: first(:)   !! (pads) local unknowns of the bearing before the fields of each pad
     integer :: first_scalar = 0        !! the same of the scalars
     procedure(take_numbers), pointer, nopass :: take_numbers => null()
+    ! equations
     procedure(equation_sizes), pointer, nopass :: equation_sizes => null()
+    procedure(take_state), pointer, nopass :: take_state => null()
+    procedure(block_gap), pointer, nopass :: add_gap => null()
     procedure(residual_block), pointer, nopass :: add_residual => null()
     procedure(matrix_block), pointer, nopass :: add_jacobian => null()
+    ! equations in vectors and matrices that are scaled: of a step of time
+    procedure(scaled_force), pointer, nopass :: add_force => null()
+    procedure(scaled_stiffness), pointer, nopass :: add_stiffness => null()
+    ! memory over time
+    procedure(time_step), pointer, nopass :: prepare_step => null()
+    procedure(time_step), pointer, nopass :: end_step => null()
+    procedure(recalled_step), pointer, nopass :: recall_step => null()
+    procedure(block_visit), pointer, nopass :: visit => null()
+    procedure(block_end), pointer, nopass :: end_motion => null()
+    ! what others ask of its unknowns
     procedure(scalar_groups), pointer, nopass :: groups => null()
+    procedure(runaway_gauge), pointer, nopass :: gauge => null()
+    type(shown_field_type), allocatable :: shown(:) !! fields of results
+    procedure(shown_field), pointer, nopass :: show => null()
+    ! numbers of an answer and their derivatives
+    integer :: numbers = 0             !! that it adds to those of every bearing
+    integer :: extremes = 0            !! fields whose largest values are among them
+    procedure(shown_field), pointer, nopass :: extreme_field => null()
+    procedure(block_numbers), pointer, nopass :: measure => null()
+    procedure(number_rates), pointer, nopass :: add_number_rates => null()
+    procedure(gap_rates), pointer, nopass :: follow_gap => null()
   end type bearing_block_type
 
   !> Scalars of a block that belong together: one each row of the film's mesh, or one for whatever else.
@@ -82,6 +108,9 @@ module gfb_bearing
     logical :: shaft_fixed = .false.       !! there are, but fixed at the point's place
     type(pad_type), allocatable :: pad(:)  !! equal ones
     type(film_heat_type) :: heat           !! of film, foils and walls, where it is asked for
+    type(foil_momentum_type) :: momentum   !! inertia of the foils over a step of time, where they have a mass
+    type(foil_losses_type) :: losses       !! viscous ones of meshed foils over a step of time, where there are any
+    type(foil_dampers_type) :: dampers     !! beside the springs of a foundation over a step of time, where there are any
     logical :: sparse = .false.            !! factors of the equations without heat stay sparse
     type(bearing_block_type), allocatable :: block(:) !! of equations beside those of the pads
     type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad, fields, scalars; the shaft's are the border
@@ -98,7 +127,8 @@ module gfb_bearing
     procedure :: add_up => add_up_unknowns
     procedure :: summed => summed_values
     procedure :: field => block_field
-    procedure :: local_size, film_nodes, film_temperature, film_pressure, put_pressure, film_force, is_meshed
+    procedure :: has_slow_unknowns
+    procedure :: local_size, film_nodes, film_pressure, put_pressure, film_force, is_meshed
     procedure :: has_contacts
     procedure :: gap => bearing_gap
     procedure :: modulus => bearing_modulus
@@ -155,145 +185,130 @@ module gfb_bearing
       class(bearing_type), intent(in) :: bearing
       type(scalar_group_type), allocatable, intent(out) :: group(:)
     end subroutine scalar_groups
+
+    !> Pads become what they are at a state: called before its gap is asked for.
+    subroutine take_state(bearing, point, unknown)
+      import :: bearing_type, operating_point_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(inout) :: bearing
+      type(operating_point_type), intent(in) :: point !! as it is asked for
+      real(wp), intent(in) :: unknown(:) !! local, in SI
+    end subroutine take_state
+
+    !> Adds what its unknowns do to the gap.
+    pure subroutine block_gap(bearing, point, unknown, gap)
+      import :: bearing_type, operating_point_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      type(operating_point_type), intent(in) :: point !! with the shaft's position
+      real(wp), intent(in) :: unknown(:) !! local, in SI
+      real(wp), intent(inout) :: gap(:)  !! at this rank's nodes of all films [m]
+    end subroutine block_gap
+
+    !> Adds to the residual of a step of time.
+    subroutine scaled_force(bearing, state, residual)
+      import :: bearing_type, tVec
+      implicit none (type, external)
+      class(bearing_type), intent(inout) :: bearing
+      Vec, intent(in) :: state    !! scaled
+      Vec, intent(in) :: residual !! of the bearing, scaled
+    end subroutine scaled_force
+
+    !> Adds to the matrix of a step of time.
+    subroutine scaled_stiffness(bearing, matrix)
+      import :: bearing_type, tMat
+      implicit none (type, external)
+      class(bearing_type), intent(inout) :: bearing
+      Mat, intent(in) :: matrix !! of the bearing, scaled
+    end subroutine scaled_stiffness
+
+    !> A step of time is prepared, or has led to the present state.
+    subroutine time_step(bearing, weight, now, before)
+      import :: bearing_type, wp, tVec
+      implicit none (type, external)
+      class(bearing_type), intent(inout) :: bearing
+      real(wp), intent(in) :: weight(0:2) !! a_0, a_1, a_2 of `gfb_backward_difference` [1/s]
+      Vec, intent(in) :: now, before !! scaled states at its beginning and one step earlier
+    end subroutine time_step
+
+    !> Pads are put where a step has left them, of what was saved of it.
+    subroutine recalled_step(bearing, step, unknown)
+      import :: bearing_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(inout) :: bearing
+      integer, intent(in) :: step !! 1: the newest, 2: the one before
+      real(wp), intent(in) :: unknown(:) !! local ones then, in SI
+    end subroutine recalled_step
+
+    !> Saves or restores what it remembers. All ranks ask.
+    subroutine block_visit(archive, bearing, order)
+      import :: bearing_type, archive_type, natural_order_type
+      implicit none (type, external)
+      type(archive_type), intent(inout) :: archive !! that saves or restores
+      class(bearing_type), intent(inout) :: bearing
+      type(natural_order_type), intent(in) :: order !! of its state
+    end subroutine block_visit
+
+    !> The motion is over: its equations are those of a steady state again; may be called twice.
+    subroutine block_end(bearing)
+      import :: bearing_type
+      implicit none (type, external)
+      class(bearing_type), intent(inout) :: bearing
+    end subroutine block_end
+
+    !> A number of the present state that runs away before answers along a path turn back.
+    subroutine runaway_gauge(bearing, value)
+      import :: bearing_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      real(wp), intent(out) :: value
+    end subroutine runaway_gauge
+
+    !> One of its fields.
+    subroutine shown_field(bearing, unknown, which, value)
+      import :: bearing_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      real(wp), intent(in) :: unknown(:) !! local, in SI
+      integer, intent(in) :: which !! of the fields
+      real(wp), intent(out) :: value(:) !! at this rank's nodes of all films, in SI
+    end subroutine shown_field
+
+    !> Its numbers, the friction torque of the films behind them where it has their equations. All ranks ask.
+    subroutine block_numbers(bearing, here, unknown, gap, number)
+      import :: bearing_type, operating_point_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      type(operating_point_type), intent(in) :: here !! with the shaft's position
+      real(wp), intent(in) :: unknown(:) !! local, in SI
+      real(wp), intent(in) :: gap(:)     !! at this rank's nodes of all films [m]
+      real(wp), intent(out) :: number(:) !! (numbers + 1) in SI, on all ranks
+    end subroutine block_numbers
+
+    !> This rank's shares of the derivatives of these numbers at the present state and point.
+    subroutine number_rates(bearing, node, unknown, gap, by_unknown, by_gap)
+      import :: bearing_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      integer, intent(in) :: node(:) !! (extremes) local film node of each largest value; 0: on another rank
+      real(wp), intent(in) :: unknown(:) !! local, in SI
+      real(wp), intent(in) :: gap(:)     !! at this rank's nodes of all films [m]
+      real(wp), intent(out) :: by_unknown(:, :) !! (local unknowns, numbers + 1) the gap staying
+      real(wp), intent(out) :: by_gap(:, :)     !! (nodes, numbers + 1)
+    end subroutine number_rates
+
+    !> Adds what follows from its unknowns moving the gap.
+    subroutine gap_rates(bearing, unknown, by_gap, gradient)
+      import :: bearing_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      real(wp), intent(in) :: unknown(:) !! local, in SI
+      real(wp), intent(in) :: by_gap(:, :) !! (this rank's nodes of all films, numbers) derivatives by the gap
+      real(wp), intent(inout) :: gradient(:, :) !! (local unknowns, numbers)
+    end subroutine gap_rates
   end interface
 
 contains
-
-  !> Every contact is closed or open as it is linearised; `can` is false where forces are no lines.
-  pure subroutine begin_contact_path(contacts, can)
-    type(contact_set_type), intent(inout) :: contacts !! of this rank
-    logical, intent(out) :: can !! all penetrations press in proportion
-
-    can = .not. contacts%glued .and. all(abs(contacts%law%exponent - 1.0_wp) <= 0.0_wp)
-    contacts%closed = contacts%point%place(normal) >= 0.0_wp
-  end subroutine begin_contact_path
-
-  !> Which contact opens or closes first on the way from one displacement to another, or beyond it.
-  pure subroutine next_contact(contacts, here, ahead, share, number)
-    type(contact_set_type), intent(in) :: contacts !! of this rank
-    real(wp), intent(in) :: here(:), ahead(:) !! displacements of the set's unknowns [m]
-    real(wp), intent(out) :: share  !! of that way; `never` where none does [1]
-    integer, intent(out) :: number  !! of the contact; 0 where none does
-    real(wp) :: first(normal), last(normal), change, left
-    integer :: i
-
-    share = never
-    number = 0
-    do i = 1, size(contacts%point)
-      if (contacts%point(i)%pressed) cycle
-      first = contacts%approach(i, here)
-      last = contacts%approach(i, ahead)
-      change = last(normal) - first(normal)
-      if (contacts%closed(i)) change = -change
-      if (.not. change > 0.0_wp) cycle
-      ! What has just changed lies beyond zero by round-off alone.
-      left = max(0.0_wp, merge(first(normal), -first(normal), contacts%closed(i)))
-      if (left >= share*change) cycle
-      share = left/change
-      number = i
-    end do
-  end subroutine next_contact
-
-  !> A contact opens, or closes: that adds the dyad of two vectors to the matrix.
-  pure subroutine switch_contact(contacts, number, force, rate)
-    type(contact_set_type), intent(inout) :: contacts !! of this rank
-    integer, intent(in) :: number !! of the contact
-    real(wp), intent(inout) :: force(:) !! added: change of residual forces by penetration [N/m]
-    real(wp), intent(inout) :: rate(:)  !! added: derivative of the penetration by the unknowns [1]
-    type(contact_law_type) :: law
-    real(wp) :: stiffness, change(normal), rubbing(2), by_slip(2, 2), by_pressing(2)
-
-    associate (point => contacts%point(number))
-      law = contacts%law_of(point)
-      stiffness = law%normal_stiffness*point%length
-      change = [0.0_wp, 0.0_wp, stiffness*(1.0_wp - law%adhesion)]
-      if (.not. law%adhesion > 0.0_wp .and. contacts%artificial) then
-        change(normal) = stiffness - contacts%artificial_normal*point%length
-      end if
-      if (law%friction > 0.0_wp) then
-        call friction_force(law, point%place(:2), max(point%force(normal), 0.0_wp), rubbing, &
-                            by_slip, by_pressing)
-        change(:2) = stiffness*by_pressing
-      end if
-      contacts%closed(number) = .not. contacts%closed(number)
-      if (.not. contacts%closed(number)) change = -change
-      change = matmul(point%frame, change)
-      call add_at_contact(point, -change, force)
-    end associate
-    call contacts%add_penetration_rate(number, 1.0_wp, rate)
-  end subroutine switch_contact
-
-  !> Where each pad's film and foil, fields and scalars of blocks, and the shaft stand among all unknowns.
-  subroutine number_unknowns(bearing)
-    class(bearing_type), intent(inout) :: bearing !! pads and shaft, with its list of blocks
-    type(block_type), allocatable :: part(:)
-    integer :: i, b, k, pads
-
-    pads = size(bearing%pad)
-    allocate (part(2*pads + pads*count(bearing%block%fields > 0) + count(bearing%block%scalars > 0)))
-    do i = 1, pads
-      associate (pad => bearing%pad(i))
-        part(2*i - 1) = block_type(pad%mesh%owned_unknowns, pad%mesh%first_unknown)
-        part(2*i) = block_type(pad%foil%owned, pad%foil%global_unknown)
-      end associate
-    end do
-    k = 2*pads
-    do b = 1, size(bearing%block)
-      if (bearing%block(b)%fields == 0) cycle
-      associate (fields => bearing%block(b)%fields)
-        do i = 1, pads
-          associate (mesh => bearing%pad(i)%mesh)
-            part(k + i) = block_type(fields*mesh%owned_unknowns, numbers_of_fields(mesh%first_unknown, fields))
-          end associate
-        end do
-      end associate
-      k = k + pads
-    end do
-    do b = 1, size(bearing%block)
-      if (bearing%block(b)%scalars == 0) cycle
-      k = k + 1
-      associate (scalars => bearing%block(b)%scalars)
-        part(k) = block_type(merge(scalars, 0, this_rank() == rank_count() - 1), [(i, i=1, scalars)])
-      end associate
-    end do
-    call create_blocks(part, size(bearing%coordinate), bearing%blocks)
-    bearing%unknowns = bearing%blocks%border%unknowns
-    bearing%last_rank = bearing%blocks%border%last_rank
-    bearing%first_shaft = bearing%blocks%first(size(part) + 1)
-    bearing%first_scalar = bearing%first_shaft - sum(bearing%block%scalars)
-    call place_block_unknowns(bearing)
-  end subroutine number_unknowns
-
-  !> Tells all blocks where their unknowns stand.
-  pure subroutine place_block_unknowns(bearing)
-    class(bearing_type), intent(inout) :: bearing !! numbered
-    type(bearing_block_type) :: block
-    integer :: b, k, pads, first_scalar
-
-    pads = size(bearing%pad)
-    k = 2*pads
-    first_scalar = bearing%first_scalar
-    do b = 1, size(bearing%block)
-      block = bearing%block(b)
-      block%first = bearing%blocks%first(k + 1:k + merge(pads, 0, block%fields > 0))
-      k = k + size(block%first)
-      block%first_scalar = first_scalar
-      first_scalar = first_scalar + block%scalars
-      bearing%block(b) = block
-      if (associated(block%take_numbers)) call block%take_numbers(bearing, block)
-    end do
-  end subroutine place_block_unknowns
-
-  !> Numbers of the unknowns of each node that stand side by side.
-  pure function numbers_of_fields(number, fields) result(numbers)
-    integer, intent(in) :: number(:) !! of the nodes, from 1
-    integer, intent(in) :: fields !! at each
-    integer :: numbers(fields*size(number)), i
-
-    do i = 1, fields
-      numbers(i::fields) = fields*number - fields + i
-    end do
-  end function numbers_of_fields
 
   !> Local unknowns of a block: fields, pad by pad, and scalars.
   pure function places_of(bearing, block) result(place)
@@ -305,23 +320,6 @@ contains
     place = [(block%first_scalar + i, i=1, block%scalars)]
     if (block%fields > 0) place = [(block%first(1) + i, i=1, block%fields*bearing%film_nodes()), place]
   end function places_of
-
-  !> Sizes of the unknowns.
-  subroutine scale_unknowns(bearing)
-    class(bearing_type), intent(inout) :: bearing !! pads and shaft
-    integer :: i
-
-    allocate (bearing%unknown_scale(bearing%local_size()))
-    do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i))
-        bearing%unknown_scale(pad%first + 1:pad%last) = pad%unknown_scale()
-      end associate
-    end do
-    do i = 1, size(bearing%block)
-      bearing%unknown_scale(places_of(bearing, bearing%block(i))) = bearing%block(i)%unknown_size
-    end do
-    bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%clearance/bearing%levers()
-  end subroutine scale_unknowns
 
   !> Sizes of the local equations at an operating point, in SI.
   pure function equation_scale(self, point) result(scale)
@@ -377,9 +375,11 @@ contains
       associate (pad => self%pad(i))
         associate (h => gap(pad%first_node + 1:pad%last_node))
           h = pad%gap(self%position(unknown, point), unknown(pad%first + 1:pad%last), self%modulus(i, unknown, point))
-          if (self%heat%present) h = h - growth_of(self%heat, pad%mesh%mesh_node, pad%whole%rows(), self%position(unknown, point), unknown)
         end associate
       end associate
+    end do
+    do i = 1, size(self%block)
+      if (associated(self%block(i)%add_gap)) call self%block(i)%add_gap(self, self%position(unknown, point), unknown, gap)
     end do
   end function bearing_gap
 
@@ -538,15 +538,6 @@ contains
     end do
   end function film_pressure
 
-  !> Temperatures at this rank's film nodes, pad by pad, among local unknowns [K].
-  pure function film_temperature(self, unknown, which) result(temperature)
-    class(bearing_type), intent(in) :: self !! the bearing, with heat
-    real(wp), intent(in) :: unknown(:) !! local, in SI
-    integer, intent(in) :: which !! 1: of the gas; 2: of the top foil
-    real(wp) :: temperature(self%film_nodes())
-    temperature = unknown(self%heat%first(1) + which:self%heat%first_wall:2)
-  end function film_temperature
-
   !> A field of a block at this rank's film nodes, pad by pad, among local unknowns, in SI.
   pure function block_field(self, unknown, number, which) result(field)
     class(bearing_type), intent(in) :: self !! the bearing
@@ -586,6 +577,12 @@ contains
       force = force + self%pad(i)%film%force(pressure(self%pad(i)%first_node + 1:self%pad(i)%last_node))
     end do
   end function film_force
+
+  !> Whether some unknowns change so slowly that motions of the shaft hold them, see `gfb_heat_switch`.
+  pure logical function has_slow_unknowns(self) result(has)
+    class(bearing_type), intent(in) :: self !! the bearing
+    has = any(self%block%is_slow)
+  end function has_slow_unknowns
 
   !> Whether foils have meshes of their own.
   pure logical function is_meshed(self) result(meshed)

@@ -11,14 +11,14 @@ module gfb_bearing_answer
                                film_midplane_gap, pressure_moments, square_integrals
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
-  use gfb_heat_answer, only: heat_answer_type, heat_answer
+  use gfb_heat_answer, only: heat_answer_type
   use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress
   use gfb_bearing, only: bearing_state_type
-  use gfb_heat_block, only: heat_flows
+  use gfb_heat_numbers, only: read_heat
   use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
-  public :: bearing_answer, heat_of_answer, read_heat, place_of_gap, visit_answer
+  public :: bearing_answer, place_of_gap, visit_answer
 
   !> change of the gap along a cell that counts as rough [1]
   real(wp), parameter :: rough_step = 0.1_wp
@@ -152,31 +152,6 @@ contains
       if (answer%ring%sides > 1) call read_other_side(bearing, answer)
     end if
   end function bearing_answer
-
-  !> The heat alone of an answer, off the present state.
-  function heat_of_answer(bearing) result(heat)
-    type(bearing_system_type), intent(in) :: bearing !! with heat
-    type(heat_answer_type) :: heat
-    real(wp) :: unknown(bearing%local_size())
-
-    call bearing%get_unknowns(unknown)
-    heat = read_heat(bearing, bearing%position(unknown), unknown, bearing%gap(unknown))
-  end function heat_of_answer
-
-  !> Reads the heat off unknowns and gap.
-  function read_heat(bearing, here, unknown, gap) result(heat)
-    type(bearing_system_type), intent(in) :: bearing !! with heat
-    type(operating_point_type), intent(in) :: here !! with the shaft's position
-    real(wp), intent(in) :: unknown(:) !! the local ones [SI]
-    real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
-    type(heat_answer_type) :: heat
-    real(wp) :: value(size(unknown))
-
-    value = 0.0_wp
-    heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
-                       heat_flows(bearing, bearing_state_type(here, bearing%point, unknown, &
-                                                              gap), value))
-  end function read_heat
 
   !> Where a thrust bearing's film is thinnest, and its pressure centred.
   function ring_answer(bearing, pressure, gap) result(answer)

@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Pads and shaft as one set of equations: the terms of each pad, the list of blocks beside them, momentum and losses of the foils.
+!> Pads and shaft as one set of equations: the terms of each pad, and the list of blocks beside them.
 module gfb_bearing_system
   use petscmat
   use gfb_kinds, only: wp
@@ -16,21 +16,21 @@ module gfb_bearing_system
   use gfb_natural_order, only: natural_order_type, visit_vector
   use gfb_mesh_dm, only: local_mesh_type
   use gfb_contact_memory, only: visit_contacts
-  use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_local_exchange, only: create_exchange
-  use gfb_film_heat, only: add_shaft_flux, shaft_places
-  use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type, number_unknowns, scale_unknowns, places_of
+  use gfb_film_heat, only: shaft_places
+  use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type, places_of
+  use gfb_bearing_numbering, only: number_unknowns, scale_unknowns
+  use gfb_bearing_motion, only: momentum_block, losses_block, dampers_block, end_motion
   use gfb_heat_block, only: heat_block
   use gfb_shaft_block, only: shaft_block, shaft_of
-  use gfb_foil_rows, only: add_of_foil, create_bearing_motions, soften_foils, add_softness
+  use gfb_softness_block, only: softness_block
+  use gfb_foil_rows, only: add_of_foil, create_bearing_motions
   implicit none (type)
   private
   public :: create_bearing_system, set_up_equations, free_equations, number_by, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
-    type(foil_momentum_type) :: momentum !! inertia of the foils over a step of time, where they have a mass
-    type(foil_losses_type) :: losses     !! viscous ones of meshed foils over a step of time, where there are any
     type(term_type), allocatable, private :: term(:) !! of each pad's equations
     type(tMat), private :: constant    !! what of the matrix never changes, in SI
     !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
@@ -39,7 +39,7 @@ module gfb_bearing_system
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
-    procedure :: evaluate_at, linearise_at, is_open_at, shaft_column, shaft_flux
+    procedure :: evaluate_at, linearise_at, is_open_at, shaft_column
     procedure :: settle => settle_bearing
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
@@ -92,20 +92,29 @@ contains
     if (bearing%is_meshed()) call fill_constant(bearing)
   end subroutine set_up_equations
 
-  !> The blocks of equations that a bearing has beside those of its pads; the shaft's is the last one.
+  !> The blocks of equations that a bearing has beside those of its pads, in the order in which they are added: forces on foils
+  !> before heat, the shaft's last.
+  !>
+  !> Contacts, the free edge and asperities are no blocks: contacts are a foil's own, edge and asperities act within a pad, on its
+  !> film and foil and through its pressures on the shaft. They are terms of `pad_terms`.
   subroutine list_blocks(bearing)
     type(bearing_system_type), intent(inout) :: bearing
-    type(bearing_block_type) :: of_heat
-    integer :: blocks
+    type(bearing_block_type) :: one
+    integer :: k
 
     if (allocated(bearing%block)) deallocate (bearing%block)
-    allocate (bearing%block(count([bearing%heat%present, bearing%floats])))
-    blocks = size(bearing%block)
+    allocate (bearing%block(4 + count([bearing%heat%present, bearing%floats])))
+    call softness_block(bearing%block(1))
+    call momentum_block(bearing%block(2))
+    call losses_block(bearing%block(3))
+    call dampers_block(bearing%block(4))
+    k = 4
     if (bearing%heat%present) then
-      call heat_block(bearing, of_heat)
-      bearing%block(1) = of_heat
+      k = k + 1
+      call heat_block(bearing, one)
+      bearing%block(k) = one
     end if
-    if (bearing%floats) call shaft_block(bearing%block(blocks))
+    if (bearing%floats) call shaft_block(bearing%block(k + 1))
   end subroutine list_blocks
 
   !> Matrix with room for what each row couples.
@@ -194,7 +203,6 @@ contains
       end do
     end do
     call number_by(bearing, 0, bearing%jacobian)
-    call add_softness(bearing%blocks, bearing%heat, bearing%pad, 0.0_wp, nothing, .true., bearing%jacobian)
     do k = 1, size(bearing%block)
       if (.not. associated(bearing%block(k)%add_jacobian)) cycle
       call bearing%block(k)%add_jacobian(bearing, bearing_state_type(bearing%point, bearing%point, nothing, nothing), .true., bearing%jacobian)
@@ -286,8 +294,9 @@ contains
     end if
     PetscCallA(VecSet(residual, 0.0_wp, ierr))
     call self%exchange%add(value, residual)
-    call self%momentum%add_force(state, residual)
-    call self%losses%add_force(state, residual)
+    do k = 1, size(self%block)
+      if (associated(self%block(k)%add_force)) call self%block(k)%add_force(self, state, residual)
+    end do
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine evaluate_at
 
@@ -298,28 +307,18 @@ contains
     Vec, intent(in) :: vector !! scaled
     logical, intent(in) :: fixed !! the shaft is
     type(bearing_state_type) :: state
+    integer :: k
 
     allocate (state%unknown(bearing%local_size()))
     call bearing%get_unknowns(state%unknown, vector)
     state%point = bearing%position(state%unknown, point)
     state%asked = point
     state%fixed = fixed
-    call soften_foils(bearing%heat, point%growth, state%unknown, bearing%pad)
+    do k = 1, size(bearing%block)
+      if (associated(bearing%block(k)%take_state)) call bearing%block(k)%take_state(bearing, point, state%unknown)
+    end do
     state%gap = bearing%gap(state%unknown, point)
   end function state_at
-
-  !> Heat that flows into the shaft, at this rank's film nodes, pad by pad [W/m2].
-  function shaft_flux(self, unknown) result(flux)
-    class(bearing_system_type), intent(in) :: self !! the bearing, with heat
-    real(wp), intent(in) :: unknown(:) !! local, in SI
-    real(wp) :: flux(self%film_nodes())
-    real(wp) :: heat(self%local_size()), area(self%local_size())
-
-    heat = 0.0_wp
-    area = 0.0_wp
-    call add_shaft_flux(self, bearing_state_type(self%position(unknown), self%point, unknown, self%gap(unknown)), heat, area)
-    flux = self%film_pressure(self%summed(heat))/self%film_pressure(self%summed(area))
-  end function shaft_flux
 
   !> Whether gap and pressure are positive on all ranks.
   logical function is_open_at(self, unknown)
@@ -385,7 +384,6 @@ contains
       end do
     end do
     call number_by(self, 0, self%jacobian)
-    call add_softness(self%blocks, self%heat, self%pad, point%growth, here%unknown, .false., self%jacobian)
     do k = 1, size(self%block)
       if (associated(self%block(k)%add_jacobian)) call self%block(k)%add_jacobian(self, here, .false., self%jacobian)
     end do
@@ -393,8 +391,9 @@ contains
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
     call self%exchange%put(1.0_wp/self%equation_scale(point), self%left)
     PetscCallA(MatDiagonalScale(self%jacobian, self%left, self%right, ierr))
-    call self%momentum%add_stiffness(self%jacobian)
-    call self%losses%add_stiffness(self%jacobian)
+    do k = 1, size(self%block)
+      if (associated(self%block(k)%add_stiffness)) call self%block(k)%add_stiffness(self, self%jacobian)
+    end do
     PetscCallA(PetscLogEventEnd(self%events%assembly, ierr))
   end subroutine linearise_at
 
@@ -528,8 +527,7 @@ contains
     if (.not. allocated(self%unknown_scale)) return
     call free_equations(self)
     call self%pad(1)%foil%destroy() ! the others' is the same
-    call self%momentum%destroy()
-    call self%losses%destroy()
+    call end_motion(self)
     deallocate (self%pad)
   end subroutine destroy_bearing
 

@@ -16,7 +16,7 @@ module gfb_film_heat
   use gfb_bearing, only: bearing_type, bearing_state_type
   implicit none (type)
   private
-  public :: add_shaft_flux, add_heat_residual, add_heat_flows, state_of, shaft_places, channel_places, feed, is_leading, is_trailing
+  public :: add_shaft_flux, heat_flows, add_heat_flows, state_of, shaft_places, channel_places, feed, is_leading, is_trailing
   public :: equations_of, element_rows, element_walls, exchange_matrix, nodal_areas, slits_of, pad_after ! for the derivatives
 
   !> How gas mixes in the slit before a pad: its rise over ambient times `flow` is what is `carried` there. With nothing to feed
@@ -40,6 +40,17 @@ module gfb_film_heat
   end type equations_type
 
 contains
+
+  !> Adds what elements say of film and heat, and tells what those of all ranks take at each local unknown of a pressure.
+  function heat_flows(bearing, state, residual) result(flow)
+    class(bearing_type), intent(in) :: bearing !! with heat
+    type(bearing_state_type), intent(in) :: state !! of it
+    real(wp), intent(inout) :: residual(:) !! at pressures zero before [SI]
+    real(wp), allocatable :: flow(:) !! [Pa m3/s]
+
+    call add_heat_residual(bearing, state, residual)
+    flow = bearing%summed(residual)
+  end function heat_flows
 
   !> Fields at the nodes of an element.
   pure function state_of(heat, pad, element, point, unknown, gap) result(state)

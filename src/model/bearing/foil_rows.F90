@@ -1,15 +1,5 @@
 #include "gfb_petsc.h"
-!> Rows that foils have in a bearing's matrix, and what their temperature makes of them.
-!>
-!> Where the modulus of foils follows their temperature, their elastic forces are those of the foils as they were built, times
-!> a factor e of the top foil and one of the bumps. So a derivative by a temperature is a multiple of these forces,
-!>
-!> $$ f = e_t(T_m) f_t + e_b(T_m, T_b) f_b, \quad
-!>    \frac{\partial f}{\partial T_m} = e_t' f_t + \frac{\partial e_b}{\partial T_m} f_b, \quad
-!>    \frac{\partial f}{\partial T_b} = \frac{\partial e_b}{\partial T_b} f_b $$
-!>
-!> with the mean temperature of the pad's top foil and that of the sleeve, which are unknowns of the bearing. Springs under local
-!> pressure have no equations: the gap follows them at once, see `gfb_film_heat`.
+!> Rows that foils have in a bearing's matrix, and the coarse space of an iterative solver in its numbers.
 module gfb_foil_rows
   use petscmat
   use gfb_kinds, only: wp
@@ -18,10 +8,9 @@ module gfb_foil_rows
   use gfb_blocks, only: blocks_type, block_type, create_blocks
   use gfb_foil_model, only: foil_model_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_heat, only: film_heat_type, moduli_at
   implicit none (type)
   private
-  public :: add_of_foil, create_bearing_motions, soften_foils, add_softness
+  public :: add_of_foil, create_bearing_motions
 
 contains
 
@@ -125,76 +114,4 @@ contains
       is = modulo(number, 2) == 0 .and. number <= 2*size(pads)
     end function is_foil
   end subroutine create_bearing_motions
-
-  !> Gives all foils the moduli that they have at a state.
-  subroutine soften_foils(heat, part, unknown, pads)
-    type(film_heat_type), intent(in) :: heat !! of the bearing, or none
-    real(wp), intent(in) :: part !! of what temperatures do [1]
-    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
-    type(pad_type), intent(inout) :: pads(:) !! of the bearing
-    real(wp) :: ratio(2), rate(2)
-    integer :: i
-
-    if (.not. heat%softens()) return
-    do i = 1, size(pads)
-      call moduli_at(heat, i, part, unknown, ratio, rate)
-      call pads(i)%foil%soften(ratio)
-    end do
-  end subroutine soften_foils
-
-  !> Adds what other moduli than those of the foils as they were built change in the matrix, and the columns of temperatures.
-  subroutine add_softness(blocks, heat, pads, part, unknown, room, matrix)
-    type(blocks_type), intent(in) :: blocks !! of the bearing's unknowns
-    type(film_heat_type), intent(in) :: heat !! of the bearing, or none
-    type(pad_type), intent(in) :: pads(:) !! whose foils have the moduli of this state
-    real(wp), intent(in) :: part !! of what temperatures do [1]
-    real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
-    logical, intent(in) :: room !! zeros alone, where they stand; the state has no values then
-    Mat, intent(in) :: matrix !! the bearing's, not scaled yet
-    integer :: i
-
-    do i = 1, size(pads)
-      associate (foil => pads(i)%foil)
-        if (foil%is_meshed() .and. .not. room .and. any(abs(foil%modulus - 1.0_wp) > 0.0_wp)) then
-          call add_of_foil(blocks, foil, i, foil%elastic, foil%modulus - 1.0_wp, .false., matrix)
-        end if
-      end associate
-      if (heat%softens()) call add_columns(blocks, heat, pads(i), i, part, unknown, room, matrix)
-    end do
-  end subroutine add_softness
-
-  !> Columns of the temperatures that a pad's foils follow: of their own mean, and of the sleeve's for the bumps.
-  subroutine add_columns(blocks, heat, pad, i, part, unknown, room, matrix)
-    type(blocks_type), intent(in) :: blocks
-    type(film_heat_type), intent(in) :: heat
-    type(pad_type), intent(in) :: pad
-    integer, intent(in) :: i !! its number
-    real(wp), intent(in) :: part, unknown(:)
-    logical, intent(in) :: room
-    Mat, intent(in) :: matrix
-    real(wp) :: rate(pad%last - pad%first, 2), ratio(2), by(2)
-    PetscInt :: first, last, column(2)
-    PetscErrorCode :: ierr
-    integer :: k, own
-
-    rate = 0.0_wp
-    associate (global => blocks%global)
-      if (.not. room) then
-        call moduli_at(heat, i, part, unknown, ratio, by)
-        call pad%foil%add_modulus_rates(unknown(pad%first + 1:pad%last), rate)
-        rate = rate*spread(by, 1, size(rate, 1))
-      end if
-      column = int(global([heat%place_of_mean(i), heat%place_of_sleeve()]), pint)
-      PetscCallA(MatGetOwnershipRange(matrix, first, last, ierr))
-      own = 0
-      do k = pad%foil%first + 1, size(rate, 1)
-        associate (row => int(global(pad%first + k:pad%first + k), pint))
-          if (row(1) < first .or. row(1) >= last) cycle
-          own = own + 1
-          ! the top foil does not follow the sleeve
-          PetscCallA(MatSetValues(matrix, 1_pint, row, merge(1_pint, 2_pint, own <= pad%foil%owned_top), column, [sum(rate(k, :)), rate(k, 2)], ADD_VALUES, ierr))
-        end associate
-      end do
-    end associate
-  end subroutine add_columns
 end module gfb_foil_rows

@@ -44,7 +44,7 @@ module gfb_foil_momentum
   !> Losses of the foils; none where they are not begun.
   type, public :: foil_losses_type
     logical :: present = .false.
-    real(wp), private :: time = 0.0_wp  !! tau [s]
+    real(wp) :: time = 0.0_wp           !! tau; 0 where they are not begun [s]
     real(wp), private :: share = 0.0_wp !! tau a_0 of the present step [1]
     Mat, private :: stiffness           !! K, scaled as the bearing's matrix
     Vec, private :: still               !! scaled unknowns without rates
@@ -218,6 +218,7 @@ contains
     PetscCallA(VecDestroy(self%still, ierr))
     PetscCallA(VecDestroy(self%way, ierr))
     PetscCallA(VecDestroy(self%force, ierr))
+    self%time = 0.0_wp
     self%present = .false.
   end subroutine destroy_losses
 end module gfb_foil_momentum

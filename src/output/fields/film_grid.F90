@@ -4,6 +4,7 @@ module gfb_film_grid
   use gfb_units, only: turn
   use gfb_study_cases, only: output_case_type
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
+  use gfb_bearing, only: shown_field_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_surface, only: film_surface_type
   use gfb_film_fields, only: film_block, full_rows
@@ -33,6 +34,29 @@ contains
     if (two) call add_pads(bearing, output, pads, pads, 'film_2', grids)
   end subroutine add_film_grid
 
+  !> Fields that blocks of equations have to show.
+  subroutine find_shown(bearing, unknown, row, value)
+    type(bearing_system_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(shown_field_type), allocatable, intent(out) :: row(:)
+    real(wp), allocatable, intent(out) :: value(:, :) !! (local nodes, fields)
+    integer :: i, k, many
+
+    allocate (row(0))
+    do i = 1, size(bearing%block)
+      if (allocated(bearing%block(i)%shown)) row = [row, bearing%block(i)%shown]
+    end do
+    allocate (value(bearing%film_nodes(), size(row)))
+    many = 0
+    do i = 1, size(bearing%block)
+      if (.not. allocated(bearing%block(i)%shown)) cycle
+      do k = 1, size(bearing%block(i)%shown)
+        many = many + 1
+        call bearing%block(i)%show(bearing, unknown, k, value(:, many))
+      end do
+    end do
+  end subroutine find_shown
+
   !> Adds the film of some pads, those of one bearing.
   subroutine add_pads(bearing, output, before, pads, name, grids)
     type(bearing_system_type), intent(in) :: bearing
@@ -46,6 +70,8 @@ contains
     type(film_surface_type) :: surface
     real(wp) :: unknown(bearing%local_size())
     real(wp), allocatable :: angle(:, :)
+    type(shown_field_type), allocatable :: row(:)
+    real(wp), allocatable :: value(:, :)
     integer :: i, first, last
     logical :: ring
 
@@ -76,11 +102,10 @@ contains
     if (bearing%pad(1)%contact%present) then
       call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
     end if
-    if (bearing%heat%present) then
-      call add('temperature', 'K', 'at which the gas carries its heat', bearing%film_temperature(unknown, 1))
-      call add('top_foil_temperature', 'K', 'of the top foil', bearing%film_temperature(unknown, 2))
-      call add('heat_flux_shaft', 'W/m2', 'of the heat into the shaft', bearing%shaft_flux(unknown))
-    end if
+    call find_shown(bearing, unknown, row, value)
+    do i = 1, size(row)
+      call add(trim(row(i)%name), trim(row(i)%unit), trim(row(i)%meaning), value(:, i))
+    end do
     if (pads > 1) then
       call block_bounds(film%grid%points, this_rank(), rank_count(), first, last)
       call add_grid_field(film%point_field, 'pad', '1', 'number of the pad', &

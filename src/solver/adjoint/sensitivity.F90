@@ -26,7 +26,7 @@ module gfb_sensitivity
   use gfb_key_effect, only: acts_on_point, acts_on_film
   use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
-                                place_e, place_force, place_torque, place_speed, place_extremes, place_heat
+                                numbers_of, place_e, place_force, place_torque, place_speed, place_extremes
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: any_rank, sum_over_ranks, share_failure
   use gfb_scene_reading, only: scene_with_key
@@ -153,7 +153,7 @@ contains
     real(wp), intent(in) :: combined(:, :) !! (quantities, numbers)
     Vec, intent(inout) :: adjoint(:)
     logical, intent(out) :: solved(:)
-    real(wp) :: gradient(bearing%local_size(), merge(numbers, place_heat - 1, bearing%heat%present))
+    real(wp) :: gradient(bearing%local_size(), numbers_of(bearing))
     Vec :: right
     PetscErrorCode :: ierr
     integer :: k
@@ -332,7 +332,7 @@ contains
     call take_numbers(there, bearing)
     call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
     number = 0.0_wp ! they stay where the foils alone are others
-    if (key%acts_on == acts_on_film .or. bearing%heat%present) number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
+    if (key%acts_on == acts_on_film .or. any(bearing%block%numbers > 0)) number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call take_numbers(scene, bearing)
     of_bumps = key%group == 'bump_foil'
     if (.not. changes_foils(key)) return

@@ -19,8 +19,7 @@ module gfb_continuation
                         path_report_type, heat_trail_type
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer, heat_of_answer
-  use gfb_heat_answer, only: heat_answer_type
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_stepper, only: path_problem_type, step_rules_type, follow_steps, steps_arrived, steps_too_far, steps_spent, &
                          steps_given_up
   implicit none (type)
@@ -332,12 +331,15 @@ contains
   subroutine feel_heat(path, at)
     type(point_path_type), intent(inout) :: path
     real(wp), intent(in) :: at !! parameter of the answer [1]
-    type(heat_answer_type) :: answer
+    real(wp) :: value
+    integer :: k
 
-    associate (heat => path%bearing%heat, growth => path%bearing%point%growth)
-      if (.not. heat%present) return
-      answer = heat_of_answer(path%bearing)
-      call path%heat%add(at, heat%ambient + growth*(answer%whole%maximum_film_temperature - heat%ambient))
+    associate (bearing => path%bearing)
+      do k = 1, size(bearing%block)
+        if (.not. associated(bearing%block(k)%gauge)) cycle
+        call bearing%block(k)%gauge(bearing, value)
+        call path%heat%add(at, value)
+      end do
     end associate
   end subroutine feel_heat
 
@@ -487,10 +489,15 @@ contains
     type(path_report_type), intent(inout) :: report
     type(bearing_answer_type) :: answer
     character(len=:), allocatable :: mover
+    integer :: k
 
     mover = 'shaft'
     if (path%bearing%has_contacts()) mover = 'top foil'
-    if (path%bearing%heat%present) mover = 'temperature (thermal runaway) or the '//mover
+    do k = 1, size(path%bearing%block)
+      associate (block => path%bearing%block(k))
+        if (block%mover /= '') mover = trim(block%mover)//' or the '//mover
+      end associate
+    end do
     answer = bearing_answer(path%bearing)
     if (is_closing(path%bearing) .and. .not. spent) then
       report%ending = path_closes(answer%minimum_gap, report%ending)

@@ -19,7 +19,7 @@ module gfb_period_map
   use gfb_kinds, only: wp
   use gfb_units, only: pi
   use gfb_spring_history, only: spring_history_type, put_deflections, begin_springs
-  use gfb_march_state, only: march_settings_type, pad_history_type
+  use gfb_march_state, only: march_settings_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_text, only: text
   use gfb_petsc_session, only: sum_over_ranks
@@ -80,11 +80,11 @@ contains
   end function remembered_by
 
   !> What springs remember as entries.
-  subroutine pack_springs(remembered, scale, bearing, history, entries)
+  subroutine pack_springs(remembered, scale, bearing, springs, entries)
     integer, intent(in) :: remembered(:) !! of `remembered_by`
     real(wp), intent(in) :: scale !! entries over ways [1/m]
     type(bearing_system_type), intent(in) :: bearing !! on the springs
-    type(pad_history_type), intent(in) :: history(:) !! of all pads
+    type(spring_history_type), intent(in) :: springs(:) !! of all pads
     real(wp), intent(out) :: entries(:) !! of this rank [1]
     real(wp) :: moved(bearing%local_size(), 2)
     PetscScalar, pointer :: values(:)
@@ -98,7 +98,7 @@ contains
     do kind = 1, size(remembered)
       moved = 0.0_wp
       do i = 1, size(bearing%pad)
-        moved(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = memory_of(remembered(kind), history(i)%springs)
+        moved(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = memory_of(remembered(kind), springs(i))
       end do
       do k = 1, 2
         call bearing%exchange%put(moved(:, k), vector)
@@ -112,13 +112,12 @@ contains
   end subroutine pack_springs
 
   !> The reverse.
-  subroutine unpack_springs(remembered, scale, entries, unknown, bearing, history)
+  subroutine unpack_springs(remembered, scale, entries, unknown, bearing)
     integer, intent(in) :: remembered(:) !! of `remembered_by`
     real(wp), intent(in) :: scale !! ways over entries [m]
     real(wp), intent(in) :: entries(:) !! of this rank [1]
     real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
-    type(bearing_system_type), intent(inout) :: bearing !! its foils are without dampers after that
-    type(pad_history_type), intent(inout) :: history(:) !! of all pads, which has begun; gets them
+    type(bearing_system_type), intent(inout) :: bearing !! its dampers have begun, and get them; foils are without after that
     real(wp) :: moved(size(unknown, 1), 2)
     PetscScalar, pointer :: values(:)
     Vec :: vector
@@ -137,11 +136,12 @@ contains
         first = first + owned
       end do
       do i = 1, size(bearing%pad)
-        associate (pad => bearing%pad(i), from => bearing%pad(i)%first + 1, to => bearing%pad(i)%last)
+        associate (pad => bearing%pad(i), springs => bearing%dampers%springs(i), from => bearing%pad(i)%first + 1, &
+                   to => bearing%pad(i)%last)
           if (remembered(kind) == deflections) then
-            call put_deflections(moved(from:to, :), unknown(from:to, :), pad%foil, history(i)%springs)
+            call put_deflections(moved(from:to, :), unknown(from:to, :), pad%foil, springs)
           else
-            history(i)%springs%relaxed = moved(from:to, :)
+            springs%relaxed = moved(from:to, :)
           end if
         end associate
       end do
@@ -191,17 +191,17 @@ contains
     type(period_map_type), intent(in) :: map !! created, its bearing in equilibrium
     real(wp) :: x(map%local + tail) !! with the drive's parameter and the map's own period [1]
     real(wp) :: unknown(map%bearing%local_size(), 2), speed
-    type(pad_history_type) :: rest(size(map%bearing%pad))
+    type(spring_history_type) :: rest(size(map%bearing%pad))
     integer :: i
 
     call map%bearing%get_unknowns(unknown(:, 1))
     unknown(:, 2) = unknown(:, 1)
     do i = 1, merge(size(rest), 0, map%springs > 0)
       associate (pad => map%bearing%pad(i))
-        call begin_springs(unknown(pad%first + 1:pad%last, 1), pad%foil, rest(i)%springs)
+        call begin_springs(unknown(pad%first + 1:pad%last, 1), pad%foil, rest(i))
       end associate
     end do
-    call pack_point(map, unknown, spread([0.0_wp, 0.0_wp], 2, 2), rest, x)
+    call pack_point(map, unknown, spread([0.0_wp, 0.0_wp], 2, 2), x, rest)
     speed = map%drive%speed
     x(size(x) - 1) = 2.0_wp*pi*map%turns/speed/map%period_scale
     select case (map%parameter)
@@ -303,7 +303,7 @@ contains
       call bearing%set_unknowns(unknown(:, 1))
       call begin_at(map, x, march)
       if (map%springs > 0) call unpack_springs(map%remembered, map%length/map%share, &
-                                               x(map%local - map%springs + 1:map%local), unknown, bearing, march%pad)
+                                               x(map%local - map%springs + 1:map%local), unknown, bearing)
       call resume_march(unknown, velocity, bearing, march)
       map%periods = map%periods + 1
       map%smallest_gap = huge(1.0_wp)
@@ -318,7 +318,7 @@ contains
         if (keep) map%smallest_gap = min(map%smallest_gap, bearing%smallest_gap())
       end do
       if (done) then
-        call pack_point(map, march%unknown, march%velocity(:2, :), march%pad, y)
+        call pack_point(map, march%unknown, march%velocity(:2, :), y, bearing%dampers%springs)
       else
         map%problem = 'step '//text(i)//' of '//text(map%steps)//' has no answer at its length'
         if (.not. report%converged) map%problem = map%problem//': '//report%reason
@@ -350,12 +350,12 @@ contains
   end function length_of
 
   !> Unknowns and velocities, now and one step ago, and slips as entries of a point; period and parameter stay.
-  subroutine pack_point(map, unknown, velocity, history, x)
+  subroutine pack_point(map, unknown, velocity, x, springs)
     type(period_map_type), intent(in) :: map !! its bearing is left at the newest state
     real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) [SI]
     real(wp), intent(in) :: velocity(:, :) !! (2, 2) [m/s]
-    type(pad_history_type), intent(in) :: history(:) !! of all pads, what springs remember
     real(wp), intent(inout) :: x(:)
+    type(spring_history_type), intent(in), optional :: springs(:) !! of all pads, where they have dampers
     PetscScalar, pointer :: values(:)
     PetscErrorCode :: ierr
     integer :: k, first
@@ -371,7 +371,7 @@ contains
       end do
     end associate
     if (map%springs > 0) then
-      call pack_springs(map%remembered, map%share/map%length, map%bearing, history, x(map%local - map%springs + 1:map%local))
+      call pack_springs(map%remembered, map%share/map%length, map%bearing, springs, x(map%local - map%springs + 1:map%local))
     end if
     if (map%slips == 0) return
     first = 2*map%owned

@@ -5,13 +5,11 @@ module gfb_march_state
   use gfb_kinds, only: wp
   use gfb_units, only: pi
   use gfb_archive, only: archive_type
-  use gfb_text, only: text
   use gfb_backward_difference, only: extrapolation_weights, error_share, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_operating_point, only: operating_point_type
   use gfb_film_surface, only: shaft_coordinates
   use gfb_maxwell_arm, only: maxwell_arm_type
-  use gfb_spring_history, only: spring_history_type
   implicit none (type)
   private
   public :: visit_march, allowed_step, first_step, usual_step, place_ahead, error_of, largest_way
@@ -19,7 +17,6 @@ module gfb_march_state
   !> What was before, on this rank, of a pad: now and one step ago.
   type, public :: pad_history_type
     real(wp), allocatable :: stored(:, :, :)  !! (points, elements, 2) r h [Pa m]
-    type(spring_history_type) :: springs      !! of a foundation with dampers
   end type pad_history_type
 
   !> How steps are chosen.
@@ -169,7 +166,6 @@ contains
   pure subroutine visit_march(archive, march)
     type(archive_type), intent(inout) :: archive !! that saves or restores
     type(march_type), intent(inout) :: march !! written where the archive restores
-    integer :: i
 
     call archive%visit('time', march%time)
     call archive%visit('step', march%step)
@@ -181,8 +177,5 @@ contains
     call archive%visit('first_place', march%first_place)
     call archive%visit('past_step', march%past_step)
     call archive%visit('start', march%start%place(:2))
-    do i = 1, size(march%pad)
-      if (march%pad(i)%springs%local) call archive%visit('spring_drag_'//text(i), march%pad(i)%springs%drag)
-    end do
   end subroutine visit_march
 end module gfb_march_state

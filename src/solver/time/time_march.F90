@@ -18,12 +18,12 @@ module gfb_time_march
   use gfb_backward_difference, only: difference_weights, free_value, newest_rate, extrapolation_weights, next_step, kept_times
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_film_load, only: film_forces, acts_on
-  use gfb_spring_history, only: begin_springs, damp_springs, follow_springs, recall_springs
   use gfb_march_state, only: march_type, march_settings_type, pad_history_type, allowed_step, first_step, usual_step, &
                              place_ahead, error_of, visit_march
   use gfb_operating_point, only: operating_point_type
   use gfb_contacts_in_motion, only: set_contacts_moving, take_over_friction
   use gfb_bearing_system, only: bearing_system_type, bearing_order
+  use gfb_bearing_motion, only: begin_dampers, prepare_step, end_step, recall_step, visit_motion, end_motion
   use gfb_film_rates, only: fill_springs
   use gfb_newton, only: newton_type, newton_report_type, solve_nearby
   implicit none (type)
@@ -78,10 +78,8 @@ contains
     allocate (march%unknown(bearing%local_size(), kept_times), march%pad(size(bearing%pad)))
     call bearing%get_unknowns(march%unknown(:, 1))
     march%unknown(:, 2:) = spread(march%unknown(:, 1), 2, kept_times - 1)
+    if (settings%damps()) call begin_dampers(settings%damping, settings%arm, march%unknown(:, 1), bearing)
     do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i))
-        if (settings%damps()) call begin_springs(march%unknown(pad%first + 1:pad%last, 1), pad%foil, march%pad(i)%springs)
-      end associate
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
     end do
@@ -153,65 +151,8 @@ contains
     call visit_march(archive, march)
     call visit_vector(archive, 'before', order, march%state(2))
     call visit_vector(archive, 'before_that', order, march%state(3))
-    if (bearing%momentum%present) then
-      call visit_vector(archive, 'rate', order, bearing%momentum%rate(1))
-      call visit_vector(archive, 'rate_before', order, bearing%momentum%rate(2))
-      call bearing%momentum%inner%visit(archive)
-    end if
-    if (march%settings%damps()) call visit_springs(archive, order, bearing, march)
+    call visit_motion(archive, bearing, order)
   end subroutine visit_past
-
-  !> What dampers and Maxwell arms of a foundation remember, now and one step ago. Deflections of stations are unknowns;
-  !> those of local springs follow from the pressures and the dampers' pull.
-  subroutine visit_springs(archive, order, bearing, march)
-    type(archive_type), intent(inout) :: archive
-    type(natural_order_type), intent(in) :: order
-    type(bearing_system_type), intent(in) :: bearing
-    type(march_type), intent(inout) :: march
-    real(wp) :: value(bearing%local_size(), 2)
-    integer :: i
-
-    if (march%pad(1)%springs%local) then
-      value = 0.0_wp
-      do i = 1, size(bearing%pad)
-        value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = march%pad(i)%springs%pull
-      end do
-      call visit_local('spring_pull')
-      do i = 1, size(bearing%pad)
-        march%pad(i)%springs%pull = value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :)
-        if (.not. archive%saves) march%pad(i)%springs%recalled = .true.
-      end do
-    end if
-    if (march%settings%arm%is_present()) then
-      value = 0.0_wp
-      do i = 1, size(bearing%pad)
-        value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :) = march%pad(i)%springs%relaxed
-      end do
-      call visit_local('arm')
-      do i = 1, size(bearing%pad)
-        march%pad(i)%springs%relaxed = value(bearing%pad(i)%first + 1:bearing%pad(i)%last, :)
-      end do
-    end if
-
-  contains
-
-    !> A value at every local unknown, in two fields.
-    subroutine visit_local(name)
-      character(len=*), intent(in) :: name
-      character(len=*), parameter :: ending(2) = [character(len=7) :: '', '_before']
-      Vec :: vector
-      PetscErrorCode :: ierr
-      integer :: step
-
-      PetscCallA(VecDuplicate(bearing%state, vector, ierr))
-      do step = 1, 2
-        call bearing%exchange%put(value(:, step), vector)
-        call visit_vector(archive, name//trim(ending(step)), order, vector)
-        if (.not. archive%saves) call bearing%exchange%get(vector, value(:, step))
-      end do
-      PetscCallA(VecDestroy(vector, ierr))
-    end subroutine visit_local
-  end subroutine visit_springs
 
   !> What in a march that was read does not fit itself or its states: times and steps, the way of the sleeve, films that are open.
   subroutine find_misfit(bearing, march, what)
@@ -268,11 +209,9 @@ contains
     end do
     do step = 2, 1, -1
       if (.not. bearing%floats) bearing%point%place(:2) = march%place(:2, step)
+      call recall_step(bearing, step, march%unknown(:, step))
       do i = 1, size(bearing%pad)
-        associate (pad => bearing%pad(i), unknown => march%unknown(:, step))
-          if (march%settings%damps()) call recall_springs(step, unknown(pad%first + 1:pad%last), pad%foil, march%pad(i)%springs)
-          call look_at_pad(bearing, i, unknown, march%pad(i))
-        end associate
+        call look_at_pad(bearing, i, march%unknown(:, step), march%pad(i))
       end do
     end do
   end subroutine rebuild_past
@@ -352,7 +291,7 @@ contains
     march%velocity(:, 1) = velocity
     march%place(:, 2:) = march%place(:, :kept_times - 1)
     march%place(:, 1) = place
-    if (bearing%momentum%present) call bearing%momentum%carry(weight, bearing%state, march%state(1), march%state(2))
+    call end_step(bearing, weight, march%state(1), march%state(2))
     march%past_step(2:) = march%past_step(:kept_times - 1)
     march%past_step(1) = step
     march%time = march%time + step
@@ -366,12 +305,7 @@ contains
     end do
     PetscCallA(VecCopy(bearing%state, march%state(1), ierr))
     do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), unknown => march%unknown(:, 1))
-        if (march%settings%damps()) then
-          call follow_springs(march%settings%arm, unknown(pad%first + 1:pad%last), pad%foil, march%pad(i)%springs)
-        end if
-        call look_at_pad(bearing, i, unknown, march%pad(i))
-      end associate
+      call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
     end do
     if (bearing%is_meshed()) call bearing%commit()
   end subroutine accept
@@ -399,13 +333,11 @@ contains
     else
       bearing%point%place(:2) = march%start%place(:2) + march%drive%orbit_at(time)
     end if
-    if (bearing%momentum%present) call bearing%momentum%prepare(weight, march%settings%loss_time, march%state(1), march%state(2))
-    call bearing%losses%prepare(weight, march%state(1), march%state(2))
+    call prepare_step(bearing, weight, march%state(1), march%state(2))
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), past => march%pad(i))
         pad%film%storage = weight(0)
         pad%film%past = weight(1)*past%stored(:, :, 1) + weight(2)*past%stored(:, :, 2)
-        if (march%settings%damps()) call damp_springs(march%settings%damping, march%settings%arm, weight, pad%foil, past%springs)
       end associate
     end do
   end subroutine put_terms
@@ -510,8 +442,7 @@ contains
     do i = 1, kept_times
       PetscCallA(VecDestroy(march%state(i), ierr))
     end do
-    call bearing%momentum%destroy()
-    call bearing%losses%destroy()
+    call end_motion(bearing)
     bearing%point%inertia = 0.0_wp
     if (bearing%floats) bearing%point%place = place_of(bearing)
     do i = 1, size(bearing%pad)

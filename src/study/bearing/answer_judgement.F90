@@ -81,7 +81,7 @@ contains
 
     allocate (list(0))
     if (scene%solver%stability) then
-      if (bearing%heat%present) then
+      if (bearing%has_slow_unknowns()) then
         call freeze_heat(bearing, frozen)
         call find_stability(frozen, stability)
         call free_equations(frozen)

@@ -61,7 +61,7 @@ contains
     logical :: first
 
     if (.not. scene%dynamics%present) return
-    if (bearing%heat%present) then
+    if (bearing%has_slow_unknowns()) then
       call freeze_heat(bearing, frozen)
       call find_dynamics(scene, log, frozen, newton, record, found, whirl)
       call free_equations(frozen)
@@ -247,7 +247,7 @@ contains
     type(whirl_type) :: whirl
     type(bearing_system_type) :: frozen
 
-    if (bearing%heat%present) then
+    if (bearing%has_slow_unknowns()) then
       call freeze_heat(bearing, frozen)
       call find_instability(scene, frozen, newton, excess, problem)
       call free_equations(frozen)
@@ -294,7 +294,7 @@ contains
     type(frequency_response_type) :: model
     type(bearing_system_type) :: frozen
 
-    if (bearing%heat%present) then
+    if (bearing%has_slow_unknowns()) then
       call freeze_heat(bearing, frozen)
       call find_whirl(scene, frozen, newton, whirl, problem)
       call free_equations(frozen)

@@ -102,7 +102,7 @@ contains
     type(bearing_system_type) :: frozen
 
     associate (bearing => solution%bearing, newton => solution%newton)
-      if (.not. bearing%heat%present) return
+      if (.not. bearing%has_slow_unknowns()) return
       call forget_factors(newton)
       call freeze_heat(bearing, frozen)
       call free_equations(bearing)

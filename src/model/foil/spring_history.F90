@@ -28,7 +28,23 @@ module gfb_spring_history
     real(wp) :: factor = 0.0_wp               !! its a_0 [1/s]
   end type spring_history_type
 
+  !> Dampers and arms beside the springs of all pads; none where they are not begun.
+  type, public :: foil_dampers_type
+    real(wp) :: damping = 0.0_wp !! c, viscous [N s/m3]
+    type(maxwell_arm_type) :: arm
+    type(spring_history_type), allocatable :: springs(:) !! (pads)
+  contains
+    procedure :: pads
+  end type foil_dampers_type
+
 contains
+
+  !> Pads whose springs have dampers.
+  pure integer function pads(self)
+    class(foil_dampers_type), intent(in) :: self !! of a bearing
+    pads = 0
+    if (allocated(self%springs)) pads = size(self%springs)
+  end function pads
 
   !> Begins at rest, with relaxed arms.
   subroutine begin_springs(unknown, foil, history)
