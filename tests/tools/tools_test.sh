@@ -45,6 +45,7 @@ elif [[ -e $SCRATCH/broken ]]; then
   printf '[1/2] fine\nFAILED: film.o\nError: no such variable\n'
   exit 1
 else
+  echo "$4" >>"$SCRATCH/built"
   cp "$SCRATCH/gfb" "$2/gfb"
 fi
 END
@@ -54,6 +55,7 @@ printf 'mpiexec %s %s ' "$1" "$2"
 shift 2
 exec "$@"
 END
+printf '#!/bin/sh\necho ctest "$@"\nexit "${CTEST_STATUS:-0}"\n' >"$scratch/bin/ctest"
 chmod +x "$scratch/gfb" "$scratch/bin/"*
 export SCRATCH=$scratch
 normal_path=$PATH
@@ -106,6 +108,20 @@ expect 3 'Error: no such variable' 'a build that fails shows the error'
 [[ $said != *'fine'* ]] || status=noise
 expect 3 'FAILED: film.o' 'a build that fails shows nothing else'
 rm -- "$scratch/broken"
+
+# --- tools/test NAME ---
+rm -- "$scratch/built"
+call "$copy/tools/test" unit_formulas_film unit_base --verbose
+expect 0 '--tests-regex ^(unit_formulas_film|unit_base)$ --verbose' 'tests by name run, with options of ctest'
+expect 0 "--test-dir $copy/build/release " 'in the build folder of release'
+[[ $said != *'are in order'* ]] || status=checked
+said=$(<"$scratch/built")
+[[ $said != *all* ]] || status=built-all
+expect 0 $'unit_formulas_film\nunit_base' 'only what they need is built, and nothing checked'
+CTEST_STATUS=8 call "$copy/tools/test" tools_mutants
+expect 8 'tools_mutants' 'status of ctest is passed on'
+said=$(tail -n 1 "$scratch/built")
+expect 8 all 'a test that runs gfb needs it'
 
 # --- tools/studio ---
 call "$copy/tools/studio" --install
@@ -225,8 +241,6 @@ END
   expect 0 'indented src/bad.f90' '--fix repairs indent and blanks'
   # What needs no package of pip is checked and tested where pip fails; the call ends with a failure all the same.
   rm -- "$copy/build/venv"
-  printf '#!/bin/sh\necho ctest "$@"\n' >"$scratch/bin/ctest"
-  chmod +x "$scratch/bin/ctest"
   PATH=$scratch/bin:$normal_path PIP_NO_INDEX=1 PIP_FIND_LINKS='' call "$copy/tools/test" -L unit
   expect 3 'pip failed: ' 'pip fails'
   expect 3 'habits of Fortran are not looked at' 'without fortitude the rest is checked'
