@@ -103,6 +103,23 @@ class Structure(unittest.TestCase):
         self.assertEqual(self.run_tool("--for-tests")[0].strip(), "src/film/gap.f90: gap")
         self.assertEqual(self.run_tool("--for-tests", files={"base/kinds.f90": KINDS, "film/gap.f90": GAP, "run/asks.f90": FOIL})[0], "")
 
+    def test_a_choice_is_one_name_and_goes_with_the_values_that_others_use(self):
+        choice = GAP.replace("public :: gap", "public :: gap\n  integer, parameter, public :: open = 1, closed = 2\n"
+                                              "  integer, parameter, public :: worn = 3")
+        asked = TEST.replace("only: gap", "only: gap, open, worn")
+        self.assertNotEqual((choice, asked), (GAP, TEST))
+        words = self.run_tool("--for-tests", files={"base/kinds.f90": KINDS, "film/gap.f90": choice, "run/asks.f90": FOIL}, test=asked)[0]
+        self.assertEqual(words.strip(), "src/film/gap.f90: open")
+        user = FOIL.replace("only: gap", "only: gap, closed")
+        self.assertNotEqual(user, FOIL)
+        self.assertEqual(self.run_tool("--for-tests", files={"base/kinds.f90": KINDS, "film/gap.f90": choice, "run/asks.f90": user}, test=asked)[0], "")
+
+    def test_a_type_goes_with_the_type_that_has_it(self):
+        types = GAP.replace("public :: gap", "public :: gap\n  type, public :: edge_type\n    integer :: i = 0\n  end type edge_type\n"
+                                             "  type, public :: pad_type\n    type(edge_type) :: edge\n  end type pad_type")
+        asked = TEST.replace("only: gap", "only: gap, edge_type")
+        self.assertEqual(self.run_tool("--for-tests", files={"base/kinds.f90": KINDS, "film/gap.f90": types, "run/asks.f90": FOIL}, test=asked)[0], "")
+
     def test_modules_without_a_unit_test_are_counted_and_named(self):
         one = TEST.replace("  use gfb_gap, only: gap\n", "")
         self.assertIn("! modules that a unit test names: 50.0 % (at least 92 %), 1 that none names", self.run_tool(test=one)[0])
