@@ -56,6 +56,7 @@ module gfb_result_table
     logical :: varies = .false.   !! with the machine and from run to run
     logical :: joins = .false.    !! in the manual it shares the line above
     logical :: nodal = .false.    !! the largest or smallest of values at nodes, or bound to it
+    logical :: changes_sign = .false. !! at a fold of a branch, where factors give no digit of it
   end type result_type
 
   character(len=*), parameter, public :: own_unit = 'its own' !! of `<quantity>`, or of a key
@@ -396,15 +397,15 @@ module gfb_result_table
     result_type('determinant_sign', '1', total, bearing, &
       'sign of the determinant of all equations; it changes at folds', &
       'where the shaft is balanced: sign of the determinant of all equations; along a branch '// &
-      'it changes at a fold, 0 in the row of one'), &
+      'it changes at a fold, 0 in the row of one', changes_sign=.true.), &
     result_type('edge_stiffness', 'N/m', number, bearing, &
       'force that lifts the top foil''s free edge over its displacement; negative: unstable', &
       'the same, with a free edge: force that lifts it over its mean displacement, while '// &
       'film, foils and shaft follow; near zero the equilibrium is nearly neutral, below it '// &
-      'is unstable; of several pads the least one'), &
+      'is unstable; of several pads the least one', changes_sign=.true.), &
     result_type('edge_stiffness_<n>', 'N/m', number, bearing, &
       'force that lifts the free edge of pad n over its displacement', &
-      'of several pads: the same of each'), &
+      'of several pads: the same of each', changes_sign=.true.), &
     result_type('critical_mass', 'kg', number, bearing, &
       'mass on this bearing above which a rigid shaft whirls, {at this load and speed}', &
       'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &

@@ -10,8 +10,7 @@ module gfb_scene
                               read_pads_case, read_bore_case, read_ramp_case
   use gfb_foil_cases, only: bump_foil_case_type, read_bump_foil_case
   use gfb_top_foil_case, only: top_foil_case_type, read_top_foil_case
-  use gfb_contact_case, only: contact_case_type, read_contact_case, shaft_contact_case_type, &
-                              read_shaft_contact_case
+  use gfb_contact_case, only: contact_case_type, read_contact_case, read_shaft_contact_case
   use gfb_motion_cases, only: dynamics_case_type, foil_damping_case_type, periodic_case_type, &
                               rotor_case_type, unbalance_case_type, transient_case_type, &
                               read_dynamics_case, analysis_of_state, read_foil_damping_case, &
@@ -25,6 +24,7 @@ module gfb_scene
   use gfb_analysis_row, only: analysis_row_type, limit_tilt
   use gfb_scene_case, only: scene_case_type, needs_type, read_scene_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
+  use gfb_solid_contact, only: solid_contact_type
   use gfb_sweep_case, only: sweep_case_type, read_sweep_case
   use gfb_thermal_case, only: thermal_case_type, read_thermal_case
   use gfb_case_keys, only: case_keys_type, unless
@@ -61,7 +61,7 @@ module gfb_scene
     type(bump_foil_case_type) :: bump_foil
     type(strip_load_case_type) :: strip_load
     type(contact_case_type) :: contact
-    type(shaft_contact_case_type) :: shaft_contact
+    type(solid_contact_type) :: shaft_contact
     type(modes_case_type) :: modes
     type(model_case_type) :: model
     type(mesh_case_type) :: mesh

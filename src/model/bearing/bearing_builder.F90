@@ -30,7 +30,6 @@ module gfb_bearing_builder
   use gfb_gap_part, only: gap_part_type
   use gfb_gas_film, only: gas_film_type, create_gas_film, put_strips, freeze_film, frozen_heat_type
   use gfb_heat_switch, only: follow_frozen
-  use gfb_solid_contact, only: solid_contact_type
   use gfb_changed_foil, only: take_foil_numbers
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
@@ -282,7 +281,7 @@ contains
     call create_pad_film(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
                          bearing%pad(1), error, division%film)
     if (allocated(error)) return
-    bearing%pad(1)%contact = asperities_of(scene) ! the matrix makes room for them
+    bearing%pad(1)%contact = scene%shaft_contact ! the matrix makes room for them
     call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
@@ -331,16 +330,6 @@ contains
     end associate
   end function heat_of
 
-  !> The asperities of shaft and foil.
-  pure function asperities_of(scene) result(contact)
-    type(scene_type), intent(in) :: scene
-    type(solid_contact_type) :: contact
-
-    associate (given => scene%shaft_contact)
-      contact = solid_contact_type(given%present, given%roughness, given%pressure, given%friction)
-    end associate
-  end function asperities_of
-
   !> Parts of the gap, gas and asperities that are not known where the pads are created.
   subroutine take_film_numbers(scene, bearing)
     type(scene_type), intent(in) :: scene
@@ -359,7 +348,7 @@ contains
         end if
         call pad%film%put(gap_part_type(name='interference', level=scene%bearing%interference))
         pad%film%law = scene%gas%law
-        pad%contact = asperities_of(scene)
+        pad%contact = scene%shaft_contact
       end associate
     end do
   end subroutine take_film_numbers

@@ -7,6 +7,7 @@ module gfb_contact_case
   use gfb_case_keys, only: case_keys_type, from_to, positive, unless
   use gfb_analysis_row, only: analysis_row_type
   use gfb_foil_cases, only: bump_foil_case_type
+  use gfb_solid_contact, only: solid_contact_type
   use gfb_contact_law, only: law_tanh_drag, law_coulomb
   use gfb_foil_row, only: foil_row_type
   use gfb_strip_load_case, only: strip_load_case_type, bump_stiffness, typical_deflection, &
@@ -14,17 +15,9 @@ module gfb_contact_case
   use gfb_key_effect, only: acts_on_film, acts_on_contacts
   implicit none (type, external)
   private
-  public :: shaft_contact_case_type, read_shaft_contact_case, contact_case_type, read_contact_case
+  public :: read_shaft_contact_case, contact_case_type, read_contact_case
 
-  real(wp), parameter :: usual_friction = 0.1_wp
-
-  !> The asperities of both surfaces as one.
-  type :: shaft_contact_case_type
-    logical :: present = .false.             !! the group stands in the file
-    real(wp) :: roughness = 0.0_wp           !! mean height [m]
-    real(wp) :: pressure = 0.0_wp            !! where the mean planes meet [Pa]
-    real(wp) :: friction = usual_friction    !! coefficient [1]
-  end type shaft_contact_case_type
+  real(wp), parameter :: usual_friction = 0.1_wp !! of asperities [1]
 
   !> against the slip, a vector; the default
   integer, parameter, public :: direction_tangent_plane = 1
@@ -73,12 +66,13 @@ contains
   !> Reads the group; without it nothing touches.
   subroutine read_shaft_contact_case(keys, contact, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
-    type(shaft_contact_case_type), intent(out) :: contact !! what `&shaft_contact` asks for
+    type(solid_contact_type), intent(out) :: contact !! what `&shaft_contact` asks for
     type(analysis_row_type), intent(in) :: analysis !! of the case file
 
     call keys%start_group('shaft_contact', optional=.true., present_in_file=contact%present, &
                           misplaced=analysis%refusal('shaft_contact'), acts_on=acts_on_film)
     call keys%idle(unless(contact%present, 'the file has no group &shaft_contact'))
+    contact%friction = usual_friction
     call keys%real_key('roughness', contact%roughness, 'm', &
                        'roughness height s of shaft and foil together: asperities carry the '// &
                        'pressure p_0 exp(-h/s) where the film has the thickness h', &

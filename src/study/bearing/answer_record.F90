@@ -4,6 +4,8 @@ module gfb_answer_record
   use gfb_kinds, only: wp
   use gfb_units, only: micrometres
   use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_result_names, only: find_result
+  use gfb_result_table, only: result_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_keys
@@ -55,15 +57,15 @@ contains
     end associate
   end subroutine record_answer
 
-  !> At a fold the determinant and the edges' stiffness change their signs: factors there give no digit of either.
+  !> At a fold some numbers change their signs: factors there give no digit of them.
   pure subroutine change_signs(judged)
     type(quantity_type), intent(inout) :: judged(:) !! of the answer at the fold
+    type(result_type) :: row
     integer :: i
 
     do i = 1, size(judged)
-      associate (name => judged(i)%name)
-        if (index(name, 'determinant_sign') == 1 .or. index(name, 'edge_stiffness') == 1) judged(i)%number = 0.0_wp
-      end associate
+      call find_result(judged(i)%name, row)
+      if (row%changes_sign) judged(i)%number = 0.0_wp
     end do
   end subroutine change_signs
 

@@ -270,7 +270,7 @@ contains
       if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
         pressure = trim(merge('radial', 'axial ', scene%bearing%is_thrust()))//' mean pressure'
       end if
-      call log%line('foil: elastic foundation, '// &
+      call log%line('foil: '//trim(scene%model%foil%meaning)//', '// &
                     text(foundation_stiffness(scene%model, scene%bump_foil)*1.0e-9_wp, 5)// &
                     ' N/mm^3 '//source//', '//pressure)
       if (scene%bump_foil%present .and. scene%model%foundation_stiffness > 0.0_wp) then
