@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> How a rigid rotor moves on its bearings: frequency and growth of its modes.
 !>
-!> A mode is a zero of the determinant of film, foil and rotor (`gfb_rotor_modes`). With a shift \( \sigma \) of half
+!> A mode is a zero of the determinant of film, foil and rotor (`gfb_rotor_determinant`). With a shift \( \sigma \) of half
 !> the speed, all modes in the circle
 !>
 !> $$ |\lambda - \sigma| \le r, \qquad r \ge \sqrt{1 + 1.5^2} \, \Omega $$
@@ -14,39 +14,14 @@
 !> out at its centre. Dampers beside springs that have no unknowns of their own, and Maxwell arms, are let grow from nothing,
 !> and the rotor's modes are followed. A loss factor is defined for steady vibrations alone, so with one there are no
 !> growth rates.
-!>
-!> How many zeros of an analytic function lie in a circle about a real centre, beside those that
-!> are known.
-!>
-!> The function is real on the real axis, so its zeros are real or come in conjugate pairs, and the
-!> upper half of the circle tells all. With the known zeros \( \lambda_j \) divided out,
-!>
-!> $$ g(\lambda) = f(\lambda) / \prod_j (\lambda - \lambda_j), $$
-!>
-!> the phase of g changes by \( \pi \) times the number of zeros left inside while \( \lambda \)
-!> goes along the upper half of the circle (argument principle). Thousands of zeros far outside
-!> change it, too, but not between the ends of the half circle; nearly all of that is \( a \sin
-!> \theta \), with the same a as in the modulus, \( a \cos \theta \), whose ends tell it: it is
-!> taken away. The half circle is divided until no step changes what is left by more than a fixed
-!> angle; a zero that is not known and lies next to the circle makes a step of about half a turn
-!> and is not passed over.
-!>
-!> The determinant of film, foil and rotor together, and its zeros: the rates of their modes.
-!>
-!> With the equations \( A(\lambda) x = 0 \) of film and foil about a shaft that is held, and the rotor's \( D(\lambda) \)
-!> (`gfb_rotor`), which is what is left of them when film and foil are eliminated, it is
-!>
-!> $$ \det A(\lambda) \cdot \det D(\lambda). $$
-!>
-!> \( \det D \) alone has a pole at each mode of film and foil about a shaft that is held, often next to a zero; the
-!> product has none, so its zeros can be counted, and found from starts nearby.
 module gfb_rotor_modes
   use gfb_kinds, only: wp
-  use gfb_units, only: pi
   use gfb_film_surface, only: journal_motions
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure
-  use gfb_rotor, only: rotor_type, cylindrical, dynamic_matrix, determinant, kinds_of, whirl_sense
+  use gfb_rotor, only: rotor_type, cylindrical, kinds_of, whirl_sense
+  use gfb_zero_count, only: mode_count_type, most_places
+  use gfb_rotor_determinant, only: solve_mode, begin_circle, count_missing, first_move, rounded, most_trials
   use gfb_mode_owner, only: of_rotor, owner_of, is_of_shaft, find_branches, least_share
   use gfb_text, only: text
   use gfb_rotor_pencil, only: pencil_mode_type, relaxation_type, find_pencil_modes, find_moving_share, has_pencil, &
@@ -54,35 +29,7 @@ module gfb_rotor_modes
   use gfb_vibration_equations, only: vibration_type
   implicit none (type, external)
   private
-  public :: find_determinant, solve_mode, find_rotor_modes, find_axial_mode, find_all_modes
-
-  integer, parameter :: first_steps = 16 !! of the half circle
-  !> Of the phase; five times as much would not be seen.
-  real(wp), parameter :: largest_step = pi/3.0_wp
-  !> Of the way: there the circle runs through a zero.
-  real(wp), parameter :: smallest_step = 1.0e-6_wp*pi
-  integer, parameter :: most_places = 400 !! more mean that the phase has no sense
-
-  !> The half circle and what is known along it. Fill the first three, then ask for places and
-  !> tell values.
-  type, public :: mode_count_type
-    real(wp) :: centre = 0.0_wp           !! [1/s]
-    real(wp) :: radius = 0.0_wp           !! [1/s]
-    complex(wp), allocatable :: known(:)  !! zeros, one of each conjugate pair [1/s]
-    integer :: steps = first_steps        !! in which the half circle is divided at first
-    integer, private :: at_centre = 0     !! zeros that are known as well
-    real(wp), allocatable :: angle(:)     !! of the places so far, rising from 0 to pi [rad]
-    complex(wp), allocatable :: value(:)  !! logarithm of g there [1]
-    logical :: failed = .false.           !! the circle runs through a zero
-  contains
-    procedure :: next, tell, place, missing, put_at_centre, mean
-  end type mode_count_type
-
-  real(wp), parameter :: first_move = 1.0e-5_wp !! of the secant method, over the rate [1]
-  real(wp), parameter :: tolerance = 1.0e-11_wp !! of a rate [1]
-  real(wp), parameter :: rounded = 1.0e-8_wp    !! change of a rate that is accepted where it becomes no smaller [1]
-  real(wp), parameter :: farthest = 0.05_wp     !! from its start is another mode, over the rate [1]
-  integer, parameter :: most_trials = 30        !! of the secant method
+  public :: find_rotor_modes, find_axial_mode, find_all_modes
 
   real(wp), parameter :: shift = 0.5_wp        !! next to which modes are looked for, over the speed [1]
   real(wp), parameter :: highest = 1.5_wp      !! frequency of a mode that is told, over the speed [1]
@@ -115,253 +62,6 @@ module gfb_rotor_modes
   end type rotor_answer_type
 
 contains
-
-  !> Where the function is to be evaluated next; negative where the count is complete or has failed.
-  pure function next(count) result(angle)
-    class(mode_count_type), intent(in) :: count
-    real(wp) :: angle !! along the half circle [rad]
-    integer :: i
-
-    angle = -1.0_wp
-    if (count%failed) return
-    if (.not. allocated(count%angle)) then
-      angle = 0.0_wp
-    else if (size(count%angle) <= count%steps) then
-      angle = pi*real(size(count%angle), wp)/real(count%steps, wp)
-    else
-      do i = 2, size(count%angle)
-        if (abs(step(count, i)) <= largest_step) cycle
-        angle = 0.5_wp*(count%angle(i - 1) + count%angle(i))
-        return
-      end do
-    end if
-  end function next
-
-  !> A place of the half circle.
-  pure function place(count, angle) result(rate)
-    class(mode_count_type), intent(in) :: count
-    real(wp), intent(in) :: angle !! along the half circle [rad]
-    complex(wp) :: rate !! [1/s]
-
-    rate = count%centre + count%radius*cmplx(cos(angle), sin(angle), wp)
-    if (angle <= 0.0_wp .or. angle >= pi) rate = real(rate, wp)
-  end function place
-
-  !> Takes the function's value.
-  pure subroutine tell(count, angle, logarithm)
-    class(mode_count_type), intent(inout) :: count
-    real(wp), intent(in) :: angle !! that was asked for [rad]
-    complex(wp), intent(in) :: logarithm !! of f there, up to multiples of 2 pi i [1]
-    complex(wp) :: left
-    integer :: i, before
-
-    left = logarithm - count%at_centre*log(count%place(angle) - count%centre)
-    do i = 1, size(count%known)
-      left = left - log(count%place(angle) - count%known(i))
-      if (aimag(count%known(i)) <= 0.0_wp) cycle
-      left = left - log(count%place(angle) - conjg(count%known(i)))
-    end do
-    if (.not. allocated(count%angle)) allocate (count%angle(0), count%value(0))
-    before = findloc(count%angle < angle, .true., 1, back=.true.)
-    count%angle = [count%angle(:before), angle, count%angle(before + 1:)]
-    count%value = [count%value(:before), left, count%value(before + 1:)]
-    count%failed = size(count%angle) > most_places
-    if (before > 0) count%failed = count%failed .or. angle - count%angle(before) < smallest_step
-  end subroutine tell
-
-  !> Mean of the logarithm's real part along the circle, from its first places.
-  pure real(wp) function mean(count)
-    class(mode_count_type), intent(in) :: count
-    associate (level => real(count%value, wp), last => size(count%value))
-      mean = (sum(level(2:last - 1)) + 0.5_wp*(level(1) + level(last)))/real(last - 1, wp)
-    end associate
-  end function mean
-
-  !> Takes a number of zeros to lie at the centre; values that were told follow.
-  pure subroutine put_at_centre(count, zeros)
-    class(mode_count_type), intent(inout) :: count
-    integer, intent(in) :: zeros !! all of them, those of before too
-    integer :: i
-
-    if (allocated(count%angle)) then
-      do i = 1, size(count%angle)
-        count%value(i) = count%value(i) - (zeros - count%at_centre)*log(count%place(count%angle(i)) - count%centre)
-      end do
-    end if
-    count%at_centre = zeros
-  end subroutine put_at_centre
-
-  !> Zeros in the circle that are not known, where the count is complete; each of a conjugate
-  !> pair counts.
-  pure function missing(count) result(zeros)
-    class(mode_count_type), intent(in) :: count
-    integer :: zeros, i
-    zeros = nint(sum([(step(count, i), i=2, size(count%angle))])/pi)
-  end function missing
-
-  !> How the phase changes from the place before, by less than half a turn, without the share of
-  !> zeros far outside.
-  pure function step(count, i) result(change)
-    class(mode_count_type), intent(in) :: count
-    integer, intent(in) :: i !! number of the place
-    real(wp) :: change !! [rad]
-    real(wp) :: outside
-
-    associate (angle => count%angle, value => count%value)
-      outside = 0.5_wp*real(value(1) - value(size(value)), wp)
-      change = aimag(value(i) - value(i - 1)) - outside*(sin(angle(i)) - sin(angle(i - 1)))
-    end associate
-    change = modulo(change + pi, 2.0_wp*pi) - pi
-  end function step
-
-  !> Logarithm of the determinant at a rate, up to multiples of 2 pi i; where the solver of film and foil has none, of the rotor's own,
-  !> which has the same zeros, and a pole at each mode of film and foil.
-  subroutine find_determinant(bearing, response, rotor, kind, rate, logarithm, found, of_film)
-    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(inout) :: response !! of it
-    type(rotor_type), intent(in) :: rotor !! on the bearing
-    integer, intent(in) :: kind !! of the motions
-    complex(wp), intent(in) :: rate !! lambda [1/s]
-    complex(wp), intent(out) :: logarithm !! of scaled equations [1]
-    logical, intent(out) :: found !! the matrices could be factorized
-    complex(wp), intent(out), optional :: of_film !! part of it that is film and foil about a shaft that is held [1]
-    complex(wp) :: coefficient(journal_motions, journal_motions), of_rotor
-    integer :: i
-
-    call find_coefficients(bearing, response, rate, coefficient, found, only_translations=kind == cylindrical)
-    if (.not. found) return
-    of_rotor = safe_log(determinant(dynamic_matrix(rotor, kind, coefficient, rate, bearing%point%speed)))
-    logarithm = of_rotor
-    if (present(of_film)) of_film = 0.0_wp
-    if (.not. response%part(1)%solver%has_determinant()) return
-    do i = 1, merge(1, size(response%part), kind == cylindrical)
-      logarithm = logarithm + response%part(i)%solver%log_determinant()
-    end do
-    if (kind /= cylindrical .and. allocated(response%opposite)) then
-      logarithm = logarithm + response%opposite%part(1)%solver%log_determinant()
-    end if
-    if (present(of_film)) of_film = logarithm - of_rotor
-  end subroutine find_determinant
-
-  !> Visits the first places of a circle.
-  subroutine begin_circle(bearing, response, rotor, kind, count, found)
-    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(inout) :: response !! of it
-    type(rotor_type), intent(in) :: rotor !! on the bearing
-    integer, intent(in) :: kind !! of the motions
-    type(mode_count_type), intent(inout) :: count !! along the circle
-    logical, intent(out) :: found !! the matrices could be factorized
-    complex(wp) :: logarithm
-    real(wp) :: angle
-    integer :: i
-
-    do i = 0, count%steps
-      angle = count%next()
-      call find_determinant(bearing, response, rotor, kind, count%place(angle), logarithm, found)
-      if (.not. found) return
-      call count%tell(angle, logarithm)
-    end do
-  end subroutine begin_circle
-
-  !> Counts the modes in a circle about a real rate that are not known.
-  subroutine count_missing(bearing, response, rotor, kind, count, missing, found)
-    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(inout) :: response !! of it
-    type(rotor_type), intent(in) :: rotor !! on the bearing
-    integer, intent(in) :: kind !! of the motions
-    type(mode_count_type), intent(inout) :: count !! the circle, and the modes that are known
-    integer, intent(out) :: missing !! each of a conjugate pair counts
-    logical, intent(out) :: found !! the matrices could be factorized, and the circle runs through no mode
-    complex(wp) :: logarithm
-    real(wp) :: angle
-
-    missing = 0
-    do
-      angle = count%next()
-      if (angle < 0.0_wp) exit
-      call find_determinant(bearing, response, rotor, kind, count%place(angle), logarithm, found)
-      if (.not. found) return
-      call count%tell(angle, logarithm)
-    end do
-    found = .not. count%failed
-    if (found) missing = count%missing()
-  end subroutine count_missing
-
-  !> Solves for a zero of the determinant next to a rate by the secant method; other zeros that are known are divided
-  !> out, so that the nearest of them do not lead astray. Where film and foil make the determinant so steep that no line follows
-  !> it, as foils do that lose something, the exponential with their slope at the start is divided out, which has no zero.
-  subroutine solve_mode(bearing, response, rotor, kind, rate, found, others, steep)
-    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(inout) :: response !! of it
-    type(rotor_type), intent(in) :: rotor !! on the bearing
-    integer, intent(in) :: kind !! of the mode
-    complex(wp), intent(inout) :: rate !! start, and the mode's where it is found [1/s]
-    logical, intent(out) :: found !! it converged next to the start
-    complex(wp), intent(in), optional :: others(:) !! rates of other modes of the kind, one of each conjugate pair [1/s]
-    logical, intent(in), optional :: steep !! film and foil make it so
-    complex(wp) :: before, here, at_before, at_here, move, reference, film, at_film, slope
-    real(wp) :: last_move
-    logical :: steepens
-    integer :: i
-
-    before = rate
-    here = rate*(1.0_wp + first_move)
-    last_move = huge(1.0_wp)
-    call find_determinant(bearing, response, rotor, kind, before, reference, found, film)
-    if (.not. found) return
-    reference = reference - others_at(before)
-    slope = 0.0_wp
-    steepens = .false.
-    if (present(steep)) steepens = steep
-    at_before = 1.0_wp
-    do i = 1, most_trials
-      call find_determinant(bearing, response, rotor, kind, here, at_here, found, at_film)
-      if (.not. found) return
-      if (steepens .and. i == 1) slope = log(exp(at_film - film))/(here - before)
-      at_here = exp(at_here - others_at(here) - reference - slope*(here - rate))
-      if (abs(at_here - at_before) <= 0.0_wp) exit
-      ! Next to a mode of the foil, whose determinant is divided out, round-off decides before moves do.
-      if (last_move <= rounded*abs(here) .and. abs(at_here) >= abs(at_before)) then
-        rate = here
-        return
-      end if
-      move = -at_here*(here - before)/(at_here - at_before)
-      before = here
-      at_before = at_here
-      here = here + move
-      found = abs(here - rate) <= farthest*abs(rate)
-      if (.not. found) return
-      if (abs(move) <= tolerance*abs(here) .or. (abs(move) <= rounded*abs(here) .and. abs(move) >= last_move)) then
-        rate = here
-        return
-      end if
-      last_move = abs(move)
-    end do
-    found = .false.
-
-  contains
-
-    !> Logarithm of the product of distances to the other zeros.
-    function others_at(place) result(logarithm)
-      complex(wp), intent(in) :: place !! [1/s]
-      complex(wp) :: logarithm
-      integer :: k
-
-      logarithm = 0.0_wp
-      if (.not. present(others)) return
-      do k = 1, size(others)
-        logarithm = logarithm + safe_log(place - others(k))
-        if (aimag(others(k)) > 0.0_wp) logarithm = logarithm + safe_log(place - conjg(others(k)))
-      end do
-    end function others_at
-  end subroutine solve_mode
-
-  !> Logarithm of a number, and of nothing that of next to nothing.
-  elemental function safe_log(number) result(logarithm)
-    complex(wp), intent(in) :: number !! in any unit [SI]
-    complex(wp) :: logarithm
-    logarithm = cmplx(log(max(tiny(1.0_wp), abs(number))), atan2(aimag(number), real(number, wp)), wp)
-  end function safe_log
 
   !> Modes of the rotor next to half the speed, where the shaft turns.
   subroutine find_rotor_modes(bearing, response, rotor, answer)
