@@ -27,8 +27,8 @@ module gfb_bearing_plan
   use gfb_foil_builder, only: plate_stations, stations_follow_crests
   use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core, linear_solver_iterative
-  use gfb_memory_check, only: film_memory, plate_memory, bearing_memory, study_share, &
-                              heated_memory, show_memory
+  use gfb_memory_check, only: show_memory
+  use gfb_memory_laws, only: film_memory, plate_memory, bearing_memory, study_share, heated_memory
   implicit none (type, external)
   private
   public :: plan_bearing

@@ -13,7 +13,8 @@ module gfb_foil_plan
   use gfb_strip_load_case, only: support_held, load_plates
   use gfb_foil_rules, only: strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core, linear_solver_iterative
-  use gfb_memory_check, only: strip_memory, modes_memory, show_memory
+  use gfb_memory_check, only: show_memory
+  use gfb_memory_laws, only: strip_memory, modes_memory
   use gfb_shell_geometry, only: node_unknowns
   use gfb_foil_builder, only: foil_plan_type
   implicit none (type, external)
