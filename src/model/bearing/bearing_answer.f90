@@ -13,9 +13,8 @@ module gfb_bearing_answer
   use gfb_pad, only: pad_type
   use gfb_heat_answer, only: heat_answer_type
   use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress
-  use gfb_bearing, only: bearing_state_type
+  use gfb_bearing, only: bearing_type
   use gfb_heat_numbers, only: read_heat
-  use gfb_bearing_system, only: bearing_system_type
   implicit none (type, external)
   private
   public :: bearing_answer, place_of_gap, visit_answer
@@ -79,7 +78,7 @@ contains
 
   !> Reads the answer off the present state.
   function bearing_answer(bearing, brief, stresses) result(answer)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     !> without the force of no suction, gaps at midplane and edge, cell Peclet numbers and lifts;
     !> default: with all of them
     logical, intent(in), optional :: brief
@@ -155,7 +154,7 @@ contains
 
   !> Where a thrust bearing's film is thinnest, and its pressure centred.
   function ring_answer(bearing, pressure, gap) result(answer)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: pressure(:) !! at all film nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at all film nodes [m]
     type(ring_answer_type) :: answer
@@ -187,7 +186,7 @@ contains
 
   !> What the bearing on the runner's other side does.
   subroutine read_other_side(bearing, answer)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(bearing_answer_type), intent(inout) :: answer !! with the shares of all pads
 
     associate (ring => answer%ring, first => size(answer%pad_gap)/2 + 1)
@@ -199,7 +198,7 @@ contains
 
   !> Deflection of the first pad's top foil at the inner and outer corner of its trailing edge [m].
   function trailing_deflection(bearing, unknown) result(corner)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp) :: corner(2)
     integer :: i, last
@@ -221,7 +220,7 @@ contains
   !> Row (radius, or z) and angle of the smallest gap; of places that are alike the last one along
   !> the motion, and there the outermost.
   function place_of_gap(bearing, gap, smallest) result(place)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: gap(:)   !! at all film nodes [m]
     real(wp), intent(in) :: smallest !! of all ranks [m]
     real(wp), parameter :: alike = 1.0e-9_wp !! relative, and of angles [1], [rad]
@@ -257,7 +256,7 @@ contains
 
   !> Sums and largest values of this rank's part of a pad's film.
   subroutine read_film(bearing, pad, pressure, gap, position, all_of_it, sums, largest)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(pad_type), intent(in) :: pad
     real(wp), intent(in) :: pressure(:) !! at the pad's nodes [Pa]
     real(wp), intent(in) :: gap(:)      !! at the pad's nodes [m]
@@ -285,7 +284,7 @@ contains
 
   !> What the shaft's asperities carry, and how they rub: the shaft turns, or begins to.
   subroutine read_solid_contact(bearing, unknown, answer)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
     real(wp) :: pressure(bearing%film_nodes()), sums(film_forces + 1, size(bearing%pad))
@@ -315,7 +314,7 @@ contains
   !> How far the edges of the top foil stand off the bumps, and how much of the crests touches
   !> nothing.
   subroutine read_lifts(bearing, unknown, answer)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
     real(wp) :: share(2), sums(8, size(bearing%pad)), total(8)
@@ -346,7 +345,7 @@ contains
 
   !> The largest stress of each surface of the foils.
   subroutine read_stresses(bearing, unknown, answer)
-    type(bearing_system_type), intent(in) :: bearing !! whose foils have meshes
+    class(bearing_type), intent(in) :: bearing !! whose foils have meshes
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(bearing_answer_type), intent(inout) :: answer
     type(stress_place_type) :: place(surfaces)

@@ -5,7 +5,7 @@ module gfb_bearing_directions
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks, any_rank
   use gfb_text, only: text
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing, only: bearing_type
   implicit none (type)
   private
   public :: has_free_edge, edge_words, edge_lift, edge_room, edge_force, edge_direction, contact_direction, foil_unit
@@ -14,13 +14,13 @@ contains
 
   !> Whether the top foil has an edge that is fixed nowhere.
   logical function has_free_edge(bearing) result(has)
-    class(bearing_system_type), intent(in) :: bearing !! a bearing with contacts
+    class(bearing_type), intent(in) :: bearing !! a bearing with contacts
     has = any_rank(size(bearing%pad(1)%edge%unknown) > 0)
   end function has_free_edge
 
   !> The free edge of a pad.
   pure function edge_words(bearing, pad) result(words)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in) :: pad !! its number
     character(len=:), allocatable :: words
 
@@ -31,7 +31,7 @@ contains
   !> Mean displacement of the top foil's free edge towards the shaft at the present state, of a pad or of all, over all
   !> ranks [m].
   real(wp) function edge_lift(bearing, only) result(lift)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in), optional :: only !! pad
     real(wp) :: unknown(bearing%local_size()), total(1)
     integer :: first, last, i
@@ -48,7 +48,7 @@ contains
 
   !> The pads that are asked about: one, or all.
   pure subroutine asked_pads(bearing, first, last, only)
-    class(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     integer, intent(out) :: first, last
     integer, intent(in), optional :: only
 
@@ -61,7 +61,7 @@ contains
 
   !> Smallest gap over the top foil's free edge at the present state, of a pad or of all, over all ranks [m].
   real(wp) function edge_room(bearing, only) result(room)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     integer, intent(in), optional :: only !! pad
     real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), smallest(1)
     integer :: first, last, i
@@ -75,14 +75,14 @@ contains
 
   !> Force of the spring that fixes the free edge of a pad's top foil at the point's height, towards the shaft [N].
   real(wp) function edge_force(bearing, pad) result(force)
-    class(bearing_system_type), intent(in) :: bearing !! at a point with a fixed edge
+    class(bearing_type), intent(in) :: bearing !! at a point with a fixed edge
     integer, intent(in) :: pad !! its number
     force = bearing%point%edge_hold(pad)*(bearing%point%edge_height(pad) - edge_lift(bearing, pad))
   end function edge_force
 
   !> The vector whose product with a state is that lift, of all pads or of one, over the clearance.
   subroutine edge_direction(bearing, direction, only)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     Vec, intent(in) :: direction !! scaled
     integer, intent(in), optional :: only !! pad
     real(wp) :: rate(bearing%local_size())
@@ -105,7 +105,7 @@ contains
 
   !> Which contacts open or close first on the path from the present state to another.
   subroutine contact_direction(bearing, other, direction, share, distance, closes)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     Vec, intent(in) :: other             !! scaled state
     Vec, intent(in) :: direction         !! its product with a state grows as they come on, over the clearance
     real(wp), intent(out) :: share       !! of the path to there; huge if there is none [1]
@@ -144,7 +144,7 @@ contains
   !> The unit matrix of the foil's unknowns in SI, scaled as the bearing's matrix is; a diagonal that is
   !> zero for all other unknowns.
   subroutine foil_unit(bearing, diagonal)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     Vec, intent(in) :: diagonal !! scaled
     real(wp) :: value(bearing%local_size())
     integer :: i

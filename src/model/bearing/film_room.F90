@@ -12,7 +12,7 @@ module gfb_film_room
   use gfb_petsc_session, only: largest_over_ranks, sum_over_ranks
   use gfb_film_surface, only: axial => axial_coordinate, translations
   use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing, only: bearing_type
   implicit none (type)
   private
   public :: undeflected_gap, smallest_gap_at_rest, closing_gaps, open_place
@@ -28,7 +28,7 @@ contains
 
   !> Gap at this rank's nodes, pad by pad, while no foil is deflected [m].
   pure function undeflected_gap(bearing, point) result(gap)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     type(operating_point_type), intent(in) :: point !! whose place counts
     real(wp) :: gap(bearing%film_nodes())
     integer :: i
@@ -43,7 +43,7 @@ contains
 
   !> Smallest gap while no foil is deflected, of the pads on one side of the runner or of all [m].
   function smallest_gap_at_rest(bearing, point, facing) result(smallest)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     type(operating_point_type), intent(in) :: point !! whose place counts
     real(wp), intent(in), optional :: facing !! 1 or -1, the side; default: both
     real(wp) :: smallest
@@ -58,7 +58,7 @@ contains
   !> Axial gaps at which a tilted runner meets the pads that it faces, and, of two bearings, those behind it; where it is aligned
   !> they are none [m].
   function closing_gaps(bearing, point, play) result(closing)
-    type(bearing_system_type), intent(in) :: bearing !! of thrust
+    class(bearing_type), intent(in) :: bearing !! of thrust
     type(operating_point_type), intent(in) :: point !! whose tilt counts
     real(wp), intent(in) :: play !! of a runner between two bearings, else 0 [m]
     real(wp) :: closing(2)
@@ -75,7 +75,7 @@ contains
 
   !> The place of a journal's shaft, or one as near to it as leaves the film open; none where its tilt closes the film everywhere.
   subroutine open_place(bearing, point, place, exists)
-    type(bearing_system_type), intent(in) :: bearing !! a journal's
+    class(bearing_type), intent(in) :: bearing !! a journal's
     type(operating_point_type), intent(in) :: point !! whose place is wanted
     real(wp), intent(out) :: place(2) !! eccentricity [m]
     logical, intent(out) :: exists
@@ -100,7 +100,7 @@ contains
 
   !> Gaps at this rank's nodes and Gauss points while no foil is deflected, and their derivatives by the eccentricity.
   subroutine gather_gaps(bearing, point, gap, motion, facing)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: point
     real(wp), allocatable, intent(out) :: gap(:)       !! [m]
     real(wp), allocatable, intent(out) :: motion(:, :) !! (2, places) [1]

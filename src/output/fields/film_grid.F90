@@ -4,8 +4,7 @@ module gfb_film_grid
   use gfb_units, only: turn
   use gfb_study_cases, only: output_case_type
   use gfb_petsc_session, only: this_rank, rank_count, fetch_entries
-  use gfb_bearing, only: shown_field_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing, only: bearing_type, shown_field_type
   use gfb_film_surface, only: film_surface_type
   use gfb_film_fields, only: film_block, full_rows
   use gfb_grid, only: result_grid_type, block_bounds, add_grid_field, strip_grid
@@ -18,7 +17,7 @@ contains
   !> Adds the film with the fields the scene asks for; nothing where it asks for none. The film of the second bearing, of a
   !> rotor that tilts or on a runner's other side, has a number behind its name.
   subroutine add_film_grid(bearing, output, grids)
-    type(bearing_system_type), intent(in) :: bearing !! at the state to be written
+    class(bearing_type), intent(in) :: bearing !! at the state to be written
     type(output_case_type), intent(in) :: output !! which fields are asked for
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written; gets the film
     integer :: pads
@@ -36,7 +35,7 @@ contains
 
   !> Fields that blocks of equations have to show.
   subroutine find_shown(bearing, unknown, row, value)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(shown_field_type), allocatable, intent(out) :: row(:)
     real(wp), allocatable, intent(out) :: value(:, :) !! (local nodes, fields)
@@ -59,7 +58,7 @@ contains
 
   !> Adds the film of some pads, those of one bearing.
   subroutine add_pads(bearing, output, before, pads, name, grids)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(output_case_type), intent(in) :: output
     integer, intent(in) :: before !! pads before them
     integer, intent(in) :: pads   !! their number
@@ -133,7 +132,7 @@ contains
 
   !> Where the stations of a bearing's pads lie along the motion, from the leading edge of the first one [m].
   pure function positions_along(bearing, pads) result(position)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     integer, intent(in) :: pads !! of a bearing
     real(wp), allocatable :: position(:)
     integer :: i
@@ -151,7 +150,7 @@ contains
 
   !> Adds the rank that has the elements; equal pads are divided alike.
   subroutine add_rank(bearing, film)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(result_grid_type), intent(inout) :: film
 
     integer, allocatable :: wanted(:), mine(:)

@@ -11,7 +11,7 @@ module gfb_foil_grid
   use gfb_text, only: text
   use gfb_film_mesh, only: film_mesh_type
   use gfb_units, only: turn
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing, only: bearing_type
   implicit none (type, external)
   private
   public :: create_foil_grid, add_displacement, add_contacts, add_stress, add_foil_grids
@@ -235,7 +235,7 @@ contains
   !> Adds the surfaces that the foil has at the present state, of several pads under names with their numbers; a foil
   !> without a mesh has none.
   subroutine add_foil_grids(bearing, grids)
-    type(bearing_system_type), intent(in) :: bearing !! at the state to be written
+    class(bearing_type), intent(in) :: bearing !! at the state to be written
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! to be written
 
     type(foil_surface_type), allocatable :: surface(:)

@@ -12,7 +12,7 @@ module gfb_answer_numbers
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing, only: bearing_type
   use gfb_bearing_heat, only: moduli_at
   use gfb_heat_numbers, only: heat_numbers
   use gfb_meshed_foil, only: bump_surface
@@ -51,7 +51,7 @@ contains
 
   !> The nodes of the smallest gap and of the largest and smallest pressure at the present state, the elements of the largest stresses.
   subroutine find_extremes(bearing, stresses, where_they_are)
-    type(bearing_system_type), intent(in) :: bearing !! at an answer
+    class(bearing_type), intent(in) :: bearing !! at an answer
     logical, intent(in) :: stresses !! are looked for
     type(extreme_nodes_type), intent(out) :: where_they_are !! on this rank
     real(wp) :: unknown(bearing%local_size()), value(bearing%film_nodes(), extremes + sum(bearing%block%extremes))
@@ -82,7 +82,7 @@ contains
 
   !> The elements where the stresses of the foils are largest, on one rank each.
   subroutine find_stresses(bearing, unknown, stress)
-    type(bearing_system_type), intent(in) :: bearing !! whose foils are meshed
+    class(bearing_type), intent(in) :: bearing !! whose foils are meshed
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(stress_place_type), intent(out) :: stress(:)
     type(stress_place_type) :: place(surfaces)
@@ -112,7 +112,7 @@ contains
   !> Eccentricity, or of a ring e_z and 0 [m], forces and torques, see `coordinates_of` [N], [N m], friction torque [N m], speed [rad/s], the values
   !> at the extreme nodes [m], [Pa], stresses of the foils [Pa], numbers of blocks.
   function measure(bearing, unknown, point, nodes) result(number)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(operating_point_type), intent(in) :: point !! with the shaft's position where it is fixed
     type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
@@ -152,7 +152,7 @@ contains
 
   !> Numbers of all blocks, and their share in the friction torque.
   subroutine measure_blocks(bearing, here, unknown, gap, number)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(operating_point_type), intent(in) :: here !! with the shaft's position
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp), intent(in) :: gap(:) !! at all film nodes [m]
@@ -174,7 +174,7 @@ contains
 
   !> This rank's stresses at the places where they were largest.
   subroutine measure_stresses(bearing, unknown, place, stress)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     type(stress_place_type), intent(in) :: place(:)
     real(wp), intent(inout) :: stress(:) !! one a surface [Pa]
@@ -202,7 +202,7 @@ contains
 
   !> This rank's shares of the derivatives of these numbers by the local unknowns, at the present state and point.
   subroutine measure_gradient(bearing, nodes, gradient)
-    type(bearing_system_type), intent(in) :: bearing !! at an answer
+    class(bearing_type), intent(in) :: bearing !! at an answer
     type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
     real(wp), intent(out) :: gradient(:, :) !! (local unknowns, `numbers_of` the bearing) [SI]
     real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), by_gap(bearing%film_nodes(), size(gradient, 2))
@@ -236,13 +236,13 @@ contains
 
   !> Numbers whose derivatives are not all zero: those of blocks that are not there are left out.
   pure integer function numbers_of(bearing)
-    type(bearing_system_type), intent(in) :: bearing !! pads and shaft
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
     numbers_of = place_blocks - 1 + sum(bearing%block%numbers)
   end function numbers_of
 
   !> Derivatives of the numbers of all blocks; of the friction torque where a block has the films', with that of asperities.
   subroutine add_block_rates(bearing, nodes, unknown, gap, gradient, by_gap)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(extreme_nodes_type), intent(in) :: nodes !! of extreme values
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
@@ -293,7 +293,7 @@ contains
 
   !> Friction torque of a pad's film and asperities. Between the nodes the rigid gap follows the shaft by itself.
   subroutine add_drag(bearing, pad, unknown, gap, gradient, by_gap)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(pad_type), intent(in) :: pad
     real(wp), intent(in) :: unknown(:) !! the bearing's, in SI
     real(wp), intent(in) :: gap(:)     !! at the pad's nodes [m]
@@ -343,7 +343,7 @@ contains
 
   !> The extreme values, on the rank that has their nodes.
   pure subroutine add_extremes(bearing, nodes, gradient, by_gap)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(extreme_nodes_type), intent(in) :: nodes
     real(wp), intent(inout) :: gradient(:, :), by_gap(:, :) !! (bearing's unknowns or nodes, numbers)
     integer :: i, k
@@ -361,7 +361,7 @@ contains
 
   !> The largest stresses, by the foil's unknowns and by the temperatures that its modulus follows.
   subroutine add_stresses(bearing, place, unknown, gradient)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(stress_place_type), intent(in) :: place(:)
     real(wp), intent(in) :: unknown(:) !! the bearing's, in SI
     real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, stresses)
@@ -389,7 +389,7 @@ contains
 
   !> What a pad's gap does by the unknowns that move it: its foil's, or pressures, and the shaft's.
   pure subroutine follow_gap(bearing, pad, by_gap, gradient)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     type(pad_type), intent(in) :: pad
     real(wp), intent(in) :: by_gap(:, :) !! (pad's nodes, numbers)
     real(wp), intent(inout) :: gradient(:, :) !! (bearing's unknowns, numbers)

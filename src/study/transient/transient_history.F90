@@ -5,7 +5,7 @@ module gfb_transient_history
   use gfb_archive, only: archive_type
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_text, only: text
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing, only: bearing_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_time_march, only: march_type
   use gfb_newton, only: newton_type
@@ -37,7 +37,7 @@ contains
   subroutine add_line(self, march, bearing, newton)
     class(transient_history_type), intent(inout) :: self !! gets the line
     type(march_type), intent(in) :: march !! at the state
-    type(bearing_system_type), intent(in) :: bearing !! the same
+    class(bearing_type), intent(in) :: bearing !! the same
     type(newton_type), intent(in) :: newton !! its solver
     type(bearing_answer_type) :: answer
     real(wp) :: gas(2)
@@ -142,7 +142,7 @@ contains
   subroutine see_step(self, march, bearing)
     class(transient_history_type), intent(inout) :: self !! notes them
     type(march_type), intent(in) :: march !! after a step
-    type(bearing_system_type), intent(in) :: bearing !! the same
+    class(bearing_type), intent(in) :: bearing !! the same
 
     self%smallest_gap = min(self%smallest_gap, bearing%smallest_gap())
     call self%orbit%see(march)
@@ -150,7 +150,7 @@ contains
 
   !> The gas that the films hold, and what leaves them a time.
   function gas_balance(bearing) result(gas)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     real(wp) :: gas(2) !! [Pa m3], [Pa m3/s]
     real(wp) :: unknown(bearing%local_size()), gap(bearing%film_nodes()), flows(bearing%film_nodes())
     real(wp), allocatable :: stored(:, :)
