@@ -24,23 +24,21 @@ module gfb_heated_film
   private
   public :: heated_residual, heated_jacobian, heated_shear, heated_shear_rates, gas_factors
   public :: relative_viscosity, mean_over_gap
-  ! For tests of the numbers with derivatives.
-  public :: variable, operator(+), operator(-), operator(*), operator(/), sqrt
 
   !> Variables of a point of a film, see `values_at`.
-  integer, parameter, public :: variables = 14
+  integer, parameter :: variables = 14
 
   !> A number and its derivatives by the variables.
-  type, public :: dual_type
+  type :: dual_type
     real(wp) :: v = 0.0_wp            !! its value
     real(wp) :: d(variables) = 0.0_wp !! derivatives
   end type dual_type
 
   interface operator(+)
-    module procedure plus, plus_real, real_plus
+    module procedure plus, real_plus
   end interface
   interface operator(-)
-    module procedure minus, minus_real, real_minus, negative
+    module procedure minus
   end interface
   interface operator(*)
     module procedure times, times_real, real_times
@@ -394,12 +392,6 @@ contains
     c = dual_type(a%v + b%v, a%d + b%d)
   end function plus
 
-  elemental type(dual_type) function plus_real(a, b) result(c)
-    type(dual_type), intent(in) :: a
-    real(wp), intent(in) :: b
-    c = dual_type(a%v + b, a%d)
-  end function plus_real
-
   elemental type(dual_type) function real_plus(a, b) result(c)
     real(wp), intent(in) :: a
     type(dual_type), intent(in) :: b
@@ -410,23 +402,6 @@ contains
     type(dual_type), intent(in) :: a, b
     c = dual_type(a%v - b%v, a%d - b%d)
   end function minus
-
-  elemental type(dual_type) function minus_real(a, b) result(c)
-    type(dual_type), intent(in) :: a
-    real(wp), intent(in) :: b
-    c = dual_type(a%v - b, a%d)
-  end function minus_real
-
-  elemental type(dual_type) function real_minus(a, b) result(c)
-    real(wp), intent(in) :: a
-    type(dual_type), intent(in) :: b
-    c = dual_type(a - b%v, -b%d)
-  end function real_minus
-
-  elemental type(dual_type) function negative(a) result(c)
-    type(dual_type), intent(in) :: a
-    c = dual_type(-a%v, -a%d)
-  end function negative
 
   elemental type(dual_type) function times(a, b) result(c)
     type(dual_type), intent(in) :: a, b
