@@ -3,10 +3,6 @@
 !> Stations follow each other along x, rows along z; node (station i, row j) is number
 !> (i - 1)*rows + j, wherever the strip is fixed. A rank needs a stretch of the stations only.
 !>
-!> The curve of one bump: a circular arc between its two corners.
-!>
-!> $$ R_b = \frac{l^2 + h_b^2}{2 h_b} $$
-!>
 !> Under a sector stations are rays: at the radius r the arc is wider by r/r_m, and as high, so that
 !> normals lean as much less. Everything repeats under a turn.
 !>
@@ -24,12 +20,12 @@ module gfb_foil_mesh
   use gfb_fixed_lines, only: fixed_line_corner, fixed_line_flat, fixed_line_half_flat
   use gfb_text, only: text
   use gfb_substructures, only: substructure_type
+  use gfb_bump_profile, only: arc_point, arc_normal
   implicit none (type, external)
   private
-  public :: strip_rows, cut_rows, strips_of_rows, put_strip, join_kinds, arc_point, arc_normal, &
-            top_mesh, bump_strip_mesh, strip_substructures, top_foil_mesh, crest_positions, &
-            station_positions, dividing_stations, fixed_line_corner, fixed_line_flat, &
-            fixed_line_half_flat
+  public :: strip_rows, cut_rows, strips_of_rows, put_strip, join_kinds, top_mesh, &
+            bump_strip_mesh, strip_substructures, top_foil_mesh, crest_positions, &
+            station_positions, dividing_stations
 
   real(wp), parameter :: rounding = 1.0e-9_wp !! of lengths that fit exactly, relative
 
@@ -166,47 +162,6 @@ contains
     end do
     kind = joined
   end subroutine join_kinds
-
-  !> Radius of the arc [m].
-  elemental real(wp) function arc_radius(half_length, height) result(radius)
-    real(wp), intent(in) :: half_length !! l, half the chord [m]
-    real(wp), intent(in) :: height      !! h_b, at most l [m]
-    radius = (half_length**2 + height**2)/(2.0_wp*height)
-  end function arc_radius
-
-  !> Point (x, v) at a fraction of the arc's length, from the corner (0, 0) over the crest (l, h_b).
-  pure function arc_point(half_length, height, fraction) result(point)
-    real(wp), intent(in) :: half_length, height !! l, h_b [m]
-    real(wp), intent(in) :: fraction !! 0 to 1; corners and crest are exact [1]
-    real(wp) :: point(2), turn
-
-    if (fraction <= 0.0_wp) then
-      point = 0.0_wp
-    else if (fraction >= 1.0_wp) then
-      point = [2.0_wp*half_length, 0.0_wp]
-    else
-      turn = (2.0_wp*fraction - 1.0_wp)*half_angle(half_length, height)
-      point(1) = half_length + arc_radius(half_length, height)*sin(turn)
-      ! Versine by the half angle: the crest is at h_b to the last digit.
-      point(2) = height - 2.0_wp*arc_radius(half_length, height)*sin(0.5_wp*turn)**2
-    end if
-  end function arc_point
-
-  !> Unit normal (x, v) there, away from the arc's centre: towards the shaft.
-  pure function arc_normal(half_length, height, fraction) result(normal)
-    real(wp), intent(in) :: half_length, height !! l, h_b [m]
-    real(wp), intent(in) :: fraction !! of the arc, 0 to 1 [1]
-    real(wp) :: normal(2), turn
-
-    turn = (2.0_wp*fraction - 1.0_wp)*half_angle(half_length, height)
-    normal = [sin(turn), cos(turn)]
-  end function arc_normal
-
-  !> Half the angle of the arc [rad].
-  pure real(wp) function half_angle(half_length, height) result(angle)
-    real(wp), intent(in) :: half_length, height !! l, h_b [m]
-    angle = 2.0_wp*atan2(height, half_length)
-  end function half_angle
 
   !> The top foil on the film's nodes, unrolled: x = R (theta - theta_0). Of a sector over straight
   !> strips it is flat, z along the ray in its middle, where they have their directions.

@@ -10,8 +10,8 @@ module gfb_part_builder
   use gfb_study_cases, only: part_half_arc, part_arc, part_flat, part_strip, part_top_foil
   use gfb_film_mesh, only: axial_rows
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
-  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, dividing_stations, &
-                           fixed_line_corner
+  use gfb_fixed_lines, only: fixed_line_corner
+  use gfb_foil_mesh, only: strip_shape_type, bump_strip_mesh, strip_substructures, top_foil_mesh, dividing_stations
   use gfb_substructures, only: substructure_type
   use gfb_partition, only: chain_type, division_type, divide, no_chain
   use gfb_part_chains, only: strip_chain, column_chain, strip_kinds

@@ -10,9 +10,10 @@ module gfb_rigid_modes
   use gfb_foil_structure, only: foil_structure_type
   use gfb_quad_mesh, only: quad_mesh_type
   use gfb_shell_geometry, only: node_unknowns
+  use gfb_node_patches, only: cut_into_patches
   implicit none (type)
   private
-  public :: cut_into_patches, find_patches, create_motions, node_motions
+  public :: find_patches, create_motions, node_motions
 
   integer, parameter :: space = 3
   integer, parameter :: modes = 2*space
@@ -30,79 +31,6 @@ module gfb_rigid_modes
   end type patch_type
 
 contains
-
-  !> Number of the patch of each node, from 1, and how many there are.
-  !>
-  !> Halves the nodes across their longest extent until no part holds more than asked for.
-  pure subroutine cut_into_patches(position, most, patch, patches)
-    real(wp), intent(in) :: position(:, :)       !! (3, nodes) [m]
-    integer, intent(in) :: most                  !! nodes in a patch
-    integer, allocatable, intent(out) :: patch(:) !! (nodes)
-    integer, intent(out) :: patches !! how many there are
-    integer, allocatable :: order(:), first(:)
-    integer :: i, parts, part, axis, middle
-    real(wp) :: extent(size(position, 1))
-
-    allocate (patch(size(position, 2)), source=0)
-    order = [(i, i=1, size(patch))]
-    patches = 0
-    if (size(order) == 0) return
-    ! A stack of parts that wait: part k is order(first(k):first(k + 1) - 1).
-    first = [1, size(order) + 1]
-    do while (size(first) > 1)
-      parts = size(first) - 1
-      associate (begin => first(parts), finish => first(parts + 1) - 1)
-        if (finish - begin + 1 <= most) then
-          patches = patches + 1
-          patch(order(begin:finish)) = patches
-          middle = 0
-        else
-          extent = maxval(position(:, order(begin:finish)), 2) - &
-                   minval(position(:, order(begin:finish)), 2)
-          axis = maxloc(extent, 1)
-          middle = (begin + finish + 1)/2
-          call sort_by(position(axis, :), order(begin:finish))
-        end if
-      end associate
-      part = first(parts + 1)
-      first = first(:parts)
-      if (middle > 0) first = [first, middle, part]
-    end do
-  end subroutine cut_into_patches
-
-  !> Sorts numbers by a key, equal keys by number: merge sort.
-  pure recursive subroutine sort_by(key, list)
-    real(wp), intent(in) :: key(:)
-    integer, intent(inout) :: list(:) !! places in `key`
-    integer :: merged(size(list)), left, right, half, i
-    logical :: take_left
-
-    half = size(list)/2
-    if (half == 0) return
-    call sort_by(key, list(:half))
-    call sort_by(key, list(half + 1:))
-    left = 1
-    right = half + 1
-    do i = 1, size(list)
-      take_left = right > size(list)
-      if (left <= half .and. .not. take_left) take_left = comes_first(key, list(left), list(right))
-      if (take_left) then
-        merged(i) = list(left)
-        left = left + 1
-      else
-        merged(i) = list(right)
-        right = right + 1
-      end if
-    end do
-    list = merged
-  end subroutine sort_by
-
-  !> Whether one number stands before another.
-  pure logical function comes_first(key, one, other) result(before)
-    real(wp), intent(in) :: key(:)
-    integer, intent(in) :: one, other
-    before = key(one) < key(other) .or. (key(one) <= key(other) .and. one < other)
-  end function comes_first
 
   !> The patches of one foil's nodes on this rank, and how they move; a patch lies on one rank.
   subroutine find_patches(foil, row, unit, wanted, patch)

@@ -3,8 +3,8 @@ module vibrating_strips
   use gfb_kinds, only: wp
   use gfb_quad_mesh, only: quad_mesh_type, node_set, sub_mesh
   use gfb_film_mesh, only: axial_rows
-  use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures, &
-                           fixed_line_corner
+  use gfb_fixed_lines, only: fixed_line_corner
+  use gfb_foil_mesh, only: strip_shape_type, bump_type, bump_strip_mesh, strip_substructures
   use gfb_substructures, only: substructure_type, substructure, find_kinds
   use gfb_shell_geometry, only: shell_section_type
   implicit none (type, external)
