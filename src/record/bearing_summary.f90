@@ -13,7 +13,7 @@ module gfb_bearing_summary
   use gfb_modulus_law, only: is_usual_modulus, usual_words
   implicit none (type, external)
   private
-  public :: answer_quantities, cost_quantities, add_counts, attitude_angle, show_closing_block, &
+  public :: answer_quantities, cost_quantities, add_counts, show_closing_block, &
             asked_first
 
   real(wp), parameter :: no_direction = 1.0e-12_wp !! vectors smaller than this have none, relative
