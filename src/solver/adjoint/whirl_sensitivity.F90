@@ -33,7 +33,8 @@ module gfb_whirl_sensitivity
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_sample, forces_of, force_gradient, &
                                   response_failure, destroy_response
   use gfb_foil_weighing, only: give_mass
-  use gfb_whirl, only: whirl_type, whirl_rates
+  use gfb_whirl, only: whirl_type
+  use gfb_planar_eigenvalues, only: whirl_rates
   use gfb_corrected_solve, only: solve_corrected
   use gfb_key_effect, only: acts_on_point, acts_on_contacts
   use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils, by_answer

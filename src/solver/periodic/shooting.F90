@@ -16,55 +16,28 @@ module gfb_shooting
   use gfb_kinds, only: wp
   use gfb_units, only: pi
   use gfb_text, only: text
-  use gfb_linear_solve, only: solve_general
   use gfb_period_map, only: period_map_type, apply_map, dots, length_of, tail, period_of, drive_at, parameter_of
   use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_map_derivative, only: derivative_type, floquet_type, conditions, add_column, learn_step, model_step, find_multipliers
   implicit none (type)
   private
-  public :: find_eigenvalues, shoot, find_monodromy, model_step, find_onset, fixed_parameter
-
-  interface
-    !> LAPACK: eigenvalues and eigenvectors of a general matrix.
-    subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
-      import :: wp
-      implicit none (type, external)
-      character(len=1), intent(in) :: jobvl, jobvr
-      integer, intent(in) :: n, lda, ldvl, ldvr, lwork
-      real(wp), intent(inout) :: a(lda, n)
-      real(wp), intent(out) :: wr(n), wi(n), vl(ldvl, n), vr(ldvr, n), work(lwork)
-      integer, intent(out) :: info
-    end subroutine dgeev
-  end interface
+  public :: shoot, find_monodromy, find_onset, fixed_parameter
 
   real(wp), parameter :: closed = 1.0e-11_wp     !! an orbit, and its conditions [1]
   real(wp), parameter :: nearly = 1.0e-9_wp      !! the same along a branch, or where round-off ends it [1]
   real(wp), parameter :: round_off = 0.3_wp      !! of an opening, over that of the step before [1]
   real(wp), parameter :: difference = 2.0e-6_wp  !! of points whose maps are subtracted [1]
   real(wp), parameter :: settled = 1.0e-6_wp     !! residual of a multiplier that is found [1]
-  real(wp), parameter :: counted = 0.3_wp        !! multipliers of this size must be [1]
   real(wp), parameter :: longest = 0.5_wp        !! step of a point [1]
   integer, parameter :: least_basis = 6, most_basis = 24 !! columns of Arnoldi's method
   integer, parameter :: most_iterations = 20
   integer, parameter :: most_halvings = 4        !! of a step whose orbit does not get round
-  integer, parameter, public :: conditions = 2
-
-  !> What is known of the map's derivative: W = M V.
-  type, public :: derivative_type
-    real(wp), allocatable :: basis(:, :) !! V, (entries, columns), orthonormal [1]
-    real(wp), allocatable :: image(:, :) !! W, (entries, columns) [1]
-  end type derivative_type
 
   !> The two equations that close the system: row(:, i) times x is value(i).
   type, public :: condition_type
     real(wp), allocatable :: row(:, :) !! (entries, conditions) [1]
     real(wp) :: value(conditions) = 0.0_wp !! [1]
   end type condition_type
-
-  !> Floquet multipliers, the largest first.
-  type, public :: floquet_type
-    complex(wp), allocatable :: value(:)     !! [1]
-    complex(wp), allocatable :: vector(:, :) !! (entries, values), of length 1 [1]
-  end type floquet_type
 
   real(wp), parameter :: visible = 0.02_wp  !! multiplier of a mode that is looked at [1]
   real(wp), parameter :: slow = 0.05_wp     !! whirl over the speed that is none [1]
@@ -82,43 +55,6 @@ module gfb_shooting
   end type whirl_type
 
 contains
-
-  !> Eigenvalues by falling size, and their vectors of length 1.
-  subroutine find_eigenvalues(matrix, value, vector)
-    real(wp), intent(in) :: matrix(:, :)      !! (n, n) [1]
-    complex(wp), intent(out) :: value(:)      !! (n) [1]
-    complex(wp), intent(out) :: vector(:, :)  !! (n, n) a column a value [1]
-    real(wp) :: copy(size(matrix, 1), size(matrix, 1)), right(size(matrix, 1), size(matrix, 1)), &
-      left(1, size(matrix, 1))
-    real(wp) :: real_part(size(matrix, 1)), imaginary_part(size(matrix, 1)), work(8*size(matrix, 1))
-    complex(wp) :: found(size(matrix, 1)), column(size(matrix, 1), size(matrix, 1))
-    logical :: left_over(size(matrix, 1))
-    integer :: n, i, k, info
-
-    n = size(matrix, 1)
-    copy = matrix
-    call dgeev('N', 'V', n, copy, n, real_part, imaginary_part, left, 1, right, n, work, &
-      size(work), info)
-    if (info /= 0) error stop 'gfb_shooting: LAPACK found no eigenvalues'
-    found = cmplx(real_part, imaginary_part, wp)
-    i = 1
-    do while (i <= n)
-      column(:, i) = right(:, i)
-      if (abs(imaginary_part(i)) > 0.0_wp .and. i < n) then ! a conjugate pair has two real columns
-        column(:, i) = cmplx(right(:, i), right(:, i + 1), wp)
-        column(:, i + 1) = conjg(column(:, i))
-        i = i + 1
-      end if
-      i = i + 1
-    end do
-    left_over = .true.
-    do k = 1, n
-      i = maxloc(abs(found), 1, left_over)
-      left_over(i) = .false.
-      value(k) = found(i)
-      vector(:, k) = column(:, i)
-    end do
-  end subroutine find_eigenvalues
 
   !> From a point near an orbit to the orbit; `.false.` where none is found.
   logical function shoot(map, condition, derivative, x, y, iterations) result(found)
@@ -179,83 +115,6 @@ contains
     open = max(open, maxval(abs(condition%value - dots(map, condition%row, x))))
   end function opening
 
-  !> Broyden's formula: the derivative that is nearest to the one before and maps the last step as it was.
-  subroutine learn_step(map, step, change, derivative)
-    type(period_map_type), intent(in) :: map
-    real(wp), intent(in) :: step(:)   !! of the point
-    real(wp), intent(in) :: change(:) !! of what it is mapped to
-    type(derivative_type), intent(inout) :: derivative
-    real(wp), parameter :: new = 1.0e-6_wp !! part of a step outside of the basis
-    real(wp) :: outside(size(step)), length, all, missing(size(step))
-    real(wp), allocatable :: share(:)
-    integer :: i
-
-    all = length_of(map, step)
-    if (.not. all > 0.0_wp) return
-    outside = step
-    do i = 1, 2
-      outside = outside - matmul(derivative%basis, dots(map, derivative%basis, outside))
-    end do
-    length = length_of(map, outside)
-    if (length > new*all) call add_column(outside/length, 0.0_wp*outside, derivative)
-    share = dots(map, derivative%basis, step)/all
-    missing = change/all - matmul(derivative%image, share)
-    do i = 1, size(share)
-      derivative%image(:, i) = derivative%image(:, i) + missing*share(i)
-    end do
-  end subroutine learn_step
-
-  !> One more direction and what it is mapped to.
-  subroutine add_column(direction, image, derivative)
-    real(wp), intent(in) :: direction(:), image(:)
-    type(derivative_type), intent(inout) :: derivative
-    real(wp), allocatable :: grown(:, :)
-    integer :: many
-
-    many = size(derivative%basis, 2)
-    allocate (grown(size(direction), many + 1))
-    grown(:, :many) = derivative%basis
-    grown(:, many + 1) = direction
-    call move_alloc(grown, derivative%basis)
-    allocate (grown(size(direction), many + 1))
-    grown(:, :many) = derivative%image
-    grown(:, many + 1) = image
-    call move_alloc(grown, derivative%image)
-  end subroutine add_column
-
-  !> The step that closes an orbit by what is known of the map:
-  !>
-  !> $$ \delta = f + W z + \delta_T + \delta_p, \quad z = V^T \delta, \quad c_i^T \delta = r_i $$
-  subroutine model_step(map, derivative, open, row, rest, step)
-    type(period_map_type), intent(in) :: map !! the map
-    type(derivative_type), intent(in) :: derivative !! what is known of it
-    real(wp), intent(in) :: open(:)   !! f, by which the orbit does not close [1]
-    real(wp), intent(in) :: row(:, :) !! c, (entries, conditions) [1]
-    real(wp), intent(in) :: rest(:)   !! r, what is missing of the conditions [1]
-    real(wp), intent(out) :: step(:)  !! delta; huge where there is none [1]
-    real(wp), allocatable :: matrix(:, :), right(:)
-    integer :: many, i, last
-    logical :: solved
-
-    many = size(derivative%basis, 2)
-    last = size(open)
-    allocate (matrix(many + conditions, many + conditions), right(many + conditions))
-    do i = 1, many
-      matrix(:many, i) = -dots(map, derivative%basis, derivative%image(:, i))
-      matrix(many + 1:, i) = dots(map, row, derivative%image(:, i))
-      matrix(i, i) = matrix(i, i) + 1.0_wp
-    end do
-    matrix(:many, many + 1:) = -transpose(derivative%basis(last - 1:, :))
-    matrix(many + 1:, many + 1:) = transpose(row(last - 1:, :))
-    right(:many) = dots(map, derivative%basis, open)
-    right(many + 1:) = rest - dots(map, row, open)
-    call solve_general(matrix, right, solved)
-    step = huge(1.0_wp)
-    if (.not. solved) return
-    step = open + matmul(derivative%image, right(:many))
-    step(last - 1:) = right(many + 1:)
-  end subroutine model_step
-
   !> The map's derivative at an orbit, from nothing, and its multipliers; `.false.` where the map fails beside it.
   logical function find_monodromy(map, x, y, derivative, floquet) result(done)
     type(period_map_type), intent(inout) :: map !! the map
@@ -310,24 +169,6 @@ contains
     image = (image - y)/difference
     image(size(x) - 1:) = 0.0_wp
   end function image_of
-
-  !> Multipliers by Arnoldi's matrix, and the largest residual of those that count.
-  subroutine find_multipliers(derivative, inner, length, floquet, beside)
-    type(derivative_type), intent(in) :: derivative
-    real(wp), intent(in) :: inner(:, :) !! V^T W
-    real(wp), intent(in) :: length      !! of what leads out of the basis
-    type(floquet_type), intent(inout) :: floquet
-    real(wp), intent(out) :: beside
-    complex(wp) :: value(size(inner, 1)), vector(size(inner, 1), size(inner, 1))
-    integer :: many
-
-    many = size(inner, 1)
-    call find_eigenvalues(inner, value, vector)
-    beside = maxval(length*abs(vector(many, :)), abs(value) > counted)
-    if (.not. any(abs(value) > counted)) beside = length*abs(vector(many, 1))
-    floquet%value = value
-    floquet%vector = matmul(derivative%basis, vector)
-  end subroutine find_multipliers
 
   !> The conditions that keep period and parameter as they are at a point.
   pure function fixed_parameter(x) result(condition)
