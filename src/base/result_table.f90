@@ -18,7 +18,8 @@ module gfb_result_table
     film_and_contact = 'film and solid contact', &
     film_and_contact_brake = 'film and solid contact brake', &
     all_modes_found = 'all modes asked for were found', &
-    of_pads = 'of the pads against the runner', of_foil = 'largest deflection of the foil', &
+    of_pads = 'of the pads against the runner', of_cone = 'film force along +z on the shaft', &
+    of_foil = 'largest deflection of the foil', &
     all_members = 'all members have an answer', of_this_step = 'of this step', &
     seed_and_reason = 'seed of the member, and why it has no answer', &
     of_all_steps = 'of all load steps', of_shifted_stiffness = 'of the shifted stiffness', &
@@ -106,6 +107,9 @@ module gfb_result_table
     result_type('eccentricity_<a>', 'm', number, bearing, &
       'e_<a>, of the sleeve relative to the shaft', &
       'of the sleeve relative to the shaft, at the midplane', asked=.true., compared=.true.), &
+    result_type('axial_eccentricity', 'm', number, bearing, &
+      'e_z, of the sleeve relative to the shaft', &
+      'of a cone: e_z, of the sleeve relative to the shaft', asked=.true., compared=.true.), &
     result_type('attitude_angle', 'deg', number, bearing, &
       'from the load to the thinnest film, positive in +theta', &
       'from the load''s direction to the thinnest film''s, positive in +theta', asked=.true.), &
@@ -155,8 +159,9 @@ module gfb_result_table
       'from the land of the pads to the runner, on the axis, foils at rest', &
       'of a thrust bearing: from the land of its pads to its runner, on the axis, foils at rest', &
       asked=.true., compared=.true.), &
-    result_type('axial_force', 'N', number, bearing, '{film} force that lifts the runner', &
-      'of a thrust bearing: force that lifts the runner; in equilibrium equal to `axial_load`', &
+    result_type('axial_force', 'N', number, bearing, '{film force that lifts the runner}', &
+      'of a thrust bearing: force that lifts the runner; of a cone: along +z on the shaft; in '// &
+      'equilibrium equal to `axial_load`', &
       asked=.true.), &
     result_type('axial_force_<n>', 'N', number, bearing, 'share of pad n in axial_force'), &
     result_type('axial_load', 'N', number, sweep, 'what the sweep changes'), &

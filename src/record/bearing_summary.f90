@@ -5,7 +5,7 @@ module gfb_bearing_summary
   use gfb_units, only: degrees
   use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, place_of
   use gfb_result_names, only: add_result
-  use gfb_result_table, only: film_and_contact, film_and_contact_brake, of_pads, of_foil
+  use gfb_result_table, only: film_and_contact, film_and_contact_brake, of_pads, of_foil, of_cone
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
@@ -59,6 +59,7 @@ contains
     end if
     call add_result(list, 'eccentricity_x', answer%place(1))
     call add_result(list, 'eccentricity_y', answer%place(2))
+    if (answer%moves_along) call add_result(list, 'axial_eccentricity', answer%place(axial))
     if (norm2(answer%place(:2)) > no_direction*clearance .and. &
         norm2(answer%force(1:2)) > no_direction*force_scale) then
       call add_result(list, 'attitude_angle', attitude_angle(answer)*degrees)
@@ -180,6 +181,7 @@ contains
     end if
     call add_result(list, 'force_x', answer%force(1), by)
     call add_result(list, 'force_y', answer%force(2), by)
+    if (answer%moves_along) call add_result(list, 'axial_force', answer%force(axial), of_cone)
     call add_result(list, 'torque_x', answer%force(4), by)
     call add_result(list, 'torque_y', answer%force(5), by)
     call add_result(list, 'torque_x_without_suction', answer%force_without_suction(4))
@@ -442,6 +444,11 @@ contains
         call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
                       'gfb --branches lists equilibria')
       end if
+    end if
+    if (answer%moves_along) then
+      call log%line('along the axis   '// &
+                    engineering_text(answer%place(axial), 'um', 1.0e6_wp)//'   film force '// &
+                    engineering_text(answer%force(axial), 'N', 1.0_wp))
     end if
     call log%line('eccentricity     '//pair(answer%place(:2), 'um', 1.0e6_wp)// &
                   '   over C '//text(answer%place(1)/clearance, 5)//', '// &

@@ -66,13 +66,14 @@ module gfb_dynamics_record
 
 contains
 
-  !> Names of motions in matrices: of a journal's four, or of a runner's three.
+  !> Names of motions in matrices: of a journal's four, a runner's three, or a cone's five.
   pure function motion_names(motions) result(names)
-    integer, intent(in) :: motions !! 4 or 3
+    integer, intent(in) :: motions !! 3, 4 or 5
     character(len=4), allocatable :: names(:)
 
-    names = [character(len=4) :: 'x', 'y', 'phix', 'phiy']
-    if (motions < size(names)) names = [character(len=4) :: 'z', 'phix', 'phiy']
+    names = [character(len=4) :: 'x', 'y', 'z', 'phix', 'phiy']
+    if (motions == 4) names = names([1, 2, 4, 5])
+    if (motions == 3) names = names(3:)
   end function motion_names
 
   !> Motions of an answer's matrices.
@@ -83,11 +84,12 @@ contains
 
   !> The order of arrays, for their description.
   pure function order_of(motions) result(words)
-    integer, intent(in) :: motions !! 4 or 3
+    integer, intent(in) :: motions !! 3, 4 or 5
     character(len=:), allocatable :: words
 
     words = 'frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
     if (motions == 3) words = 'frequency, row, column] in the order e_z, phi_x, phi_y: '
+    if (motions == 5) words = 'frequency, row, column] in the order e_x, e_y, e_z, phi_x, phi_y: '
   end function order_of
 
   !> K at one of the frequencies.
@@ -146,7 +148,7 @@ contains
     integer, intent(in) :: points !! of the record, from the first
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the file
     real(wp), allocatable, dimension(:, :) :: frequency, stiffness, damping
-    character(len=:), allocatable :: axes
+    character(len=:), allocatable :: axes, force
     integer :: i, k, n, motions, entries
 
     if (.not. allocated(record%point)) return
@@ -170,11 +172,13 @@ contains
       stiffness = reshape(stiffness, [entries, n])
       damping = reshape(damping, [entries, n])
     end if
+    force = 'film force (x, y) '
+    if (motions == 3) force = 'film force along z'
+    if (motions == 5) force = 'film force (x, y, z) '
     call add_array(arrays, '/dynamics/frequency', 'rad/s', 'circular frequency of the vibration', &
                    frequency, sweeps)
     call add_array(arrays, '/dynamics/stiffness', trim(units(1)), &
-                   'real part of K + i omega C'//axes//'film force '// &
-                   trim(merge('(x, y) ', 'along z', motions == 4))// &
+                   'real part of K + i omega C'//axes//trim(force)// &
                    ' or torque that brings the shaft back, over its displacement or rotation', &
                    stiffness, sweeps, motions)
     call add_array(arrays, '/dynamics/damping', trim(units(2)), &

@@ -113,8 +113,9 @@ contains
       call read_foil_damping_case(keys, scene%foil_damping, analysis)
       call read_capacity_case(keys, scene%capacity, analysis)
       scene%operation%tilt_is_sought = analysis%limit == limit_tilt
-      ! A mass that whirls moves across the axis.
-      scene%dynamics%stability = scene%dynamics%stability .and. .not. scene%bearing%is_thrust()
+      ! A mass that whirls moves across the axis, and across it alone.
+      scene%dynamics%stability = scene%dynamics%stability .and. .not. &
+        (scene%bearing%is_thrust() .or. scene%bearing%is_cone())
       call read_sweep_case(keys, scene%sweep, analysis)
       call read_top_foil_case(keys, scene%top_foil, scene%bearing%is_thrust(), needs, &
                               scene%model%foil)

@@ -5,6 +5,7 @@ module gfb_scene_rules
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle, &
                               leading_edge_periodic
   use gfb_case_keys, only: case_keys_type
+  use gfb_film_surface, only: film_surface_type, cone
   use gfb_study_rules, only: check_sweep, check_edge_lift, check_accuracy, check_capacity, &
                              is_unloaded
   use gfb_count_rules, only: check_counts
@@ -24,6 +25,7 @@ module gfb_scene_rules
   use gfb_plate_rules, only: check_plate
   use gfb_text, only: join, text
   use gfb_thrust_rules, only: check_thrust
+  use gfb_cone_rules, only: check_cone
   use gfb_thermal_case, only: thermal_case_type, wall_given, wall_conductance, wall_fin, &
                               foil_given, foil_sheet
   implicit none (type, external)
@@ -41,6 +43,7 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
 
     call check_thrust(keys, scene)
+    call check_cone(keys, scene)
     call check_plate(keys, scene)
     call check_sweep(keys, scene)
     call check_shaft_contact(keys, scene)
@@ -311,7 +314,8 @@ contains
   !> Whether one half mirrors the other: no point is tilted, and heat leaves both ends alike.
   pure logical function is_symmetric(scene) result(symmetric)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    symmetric = .not. tilts(scene%operation, scene%sweep) .and. heat_mirrors(scene)
+    symmetric = .not. (tilts(scene%operation, scene%sweep) .or. scene%bearing%is_cone()) .and. &
+      heat_mirrors(scene)
   end function is_symmetric
 
   !> Whether heat leaves both halves of the width alike, at every point of the scene.
@@ -391,9 +395,11 @@ contains
   pure real(wp) function approach_to_pad(bearing, operation) result(approach)
     type(bearing_case_type), intent(in) :: bearing
     type(operation_case_type), intent(in) :: operation
-    real(wp) :: z, e(2)
-    integer :: pad
+    type(film_surface_type) :: surface
+    real(wp) :: e(2), tilted(2)
+    integer :: pad, end
 
+    surface = cone(bearing%radius, bearing%half_angle, 0.0_wp)
     approach = -huge(approach)
     do pad = 1, bearing%pads
       e = operation%eccentricity
@@ -401,12 +407,12 @@ contains
         e = e - bearing%preload*bearing%clearance*[cos(preload_angle(bearing, pad)), &
                                                    sin(preload_angle(bearing, pad))]
       end if
-      associate (tilt => operation%tilt)
-        z = 0.5_wp*bearing%length
-        approach = max(approach, approach_at_end(bearing, pad, e + z*[tilt(2), -tilt(1)]), &
-                       approach_at_end(bearing, pad, e - z*[tilt(2), -tilt(1)]))
-      end associate
+      do end = -1, 1, 2
+        tilted = surface%lever(0.5_wp*bearing%length*end)*[operation%tilt(2), -operation%tilt(1)]
+        approach = max(approach, approach_at_end(bearing, pad, surface%cosine*e + tilted))
+      end do
     end do
+    approach = approach + surface%sine*operation%axial_eccentricity
   end function approach_to_pad
 
   !> Displacement towards the pad at one end of the bearing; towards the

@@ -31,8 +31,9 @@ contains
                before => size(scene%sensitivity%quantity) - quantities_of_whirl &
                - quantities_of_rings)
       if (.not. scene%bearing%is_thrust()) then
-        call keys%rule('sweep', 'parameter', any(sweep%parameter == [sweep_axial_load, &
-                       sweep_axial_gap]), needs_thrust)
+        call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_gap .or. &
+                       sweep%parameter == sweep_axial_load .and. .not. scene%bearing%is_cone(), &
+                       needs_thrust)
         call keys%rule('sensitivity', 'quantity', any(asked(before + 1:before + &
                        quantities_of_rings)), 'names a result of thrust bearings: '//needs_thrust)
         return

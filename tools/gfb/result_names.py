@@ -6,6 +6,7 @@ from typing import Literal
 NumberName = Literal[
     "eccentricity_x",
     "eccentricity_y",
+    "axial_eccentricity",
     "attitude_angle",
     "force_x",
     "force_y",

@@ -25,7 +25,7 @@ module gfb_film_surface
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: cylinder, ring, entraining_speed
+  public :: cylinder, cone, ring, entraining_speed
 
   integer, parameter, public :: shaft_coordinates = 5 !! e_x, e_y, e_z [m], phi_x, phi_y [rad]
   integer, parameter, public :: translations = 3      !! those of them before the tilts
@@ -59,6 +59,16 @@ contains
     if (present(offset)) surface%offset = offset
   end function cylinder
 
+  !> A cone's surface, wider towards +z; a cylinder where its half angle is 0.
+  pure function cone(radius, half_angle, offset) result(surface)
+    real(wp), intent(in) :: radius     !! of the bearing in the middle of its length [m]
+    real(wp), intent(in) :: half_angle !! beta, of its lines with the axis [rad]
+    real(wp), intent(in) :: offset     !! of its middle from the rotor's centre [m]
+    type(film_surface_type) :: surface
+    surface = film_surface_type(radius=radius, origin=radius, offset=offset, &
+                                cosine=cos(half_angle), sine=sin(half_angle))
+  end function cone
+
   !> A thrust bearing's surface in the plane z = 0, its runner above; rows are its radii.
   pure function ring(outer_radius) result(surface)
     real(wp), intent(in) :: outer_radius !! at which arcs are measured [m]
@@ -69,7 +79,7 @@ contains
   !> Whether the film lies across the axis: a thrust bearing's.
   pure logical function is_ring(self) result(ring)
     class(film_surface_type), intent(in) :: self !! the surface
-    ring = abs(self%sine) > 0.0_wp
+    ring = .not. abs(self%cosine) > 0.0_wp
   end function is_ring
 
   !> The shaft's coordinates that change the gap.

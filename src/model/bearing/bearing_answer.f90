@@ -64,6 +64,7 @@ module gfb_bearing_answer
     type(contact_measures_type) :: contact         !! of the foil, what judges their laws' numbers
     type(heat_answer_type) :: heat                 !! where the film carries heat
     type(ring_answer_type) :: ring
+    logical :: moves_along = .false. !! of a cone: the axial position counts beside the eccentricity
     !> (5, pads) share of each of several pads [N], [N m]
     real(wp), allocatable :: pad_force(:, :)
     !> largest von Mises stress of top foil and bumps, where it was asked for and is known [Pa]
@@ -124,6 +125,7 @@ contains
     end if
     if (bearing%pad(1)%contact%present) call read_solid_contact(bearing, unknown, answer)
     answer%place = bearing%shaft_place()
+    answer%moves_along = size(bearing%pad(1)%film%surface%motions()) == shaft_coordinates
     answer%force = total(1:film_forces) + answer%solid_force
     answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
     answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius &

@@ -12,6 +12,7 @@ module gfb_bearing_builder
   use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_foil_row, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, foil_plate
   use gfb_model_case, only: reduction_guyan
+  use gfb_film_surface, only: cone
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh, cell_nodes
   use gfb_crest_lines, only: plate_sides
   use gfb_foil_builder, only: plate_stations, stations_follow_crests, sector_sides, shape_on_pad, gaps_beside, strip_on_pad, &
@@ -296,8 +297,10 @@ contains
   pure function heat_of(scene) result(heat)
     type(scene_type), intent(in) :: scene !! with heat
     type(film_heat_type) :: heat !! its unknowns are not numbered
+    real(wp) :: across !! how far a radius that grows closes the gap, over its strain [m]
 
     associate (given => scene%thermal, bearing => scene%bearing, ambient => scene%gas%ambient_pressure)
+      across = bearing%radius*cos(bearing%half_angle) ! a cone's gap is normal to its surface
       heat%present = .true.
       heat%gas = heated_gas_type(law=scene%gas%law, reference=given%ambient_temperature, &
                                  density=scene%gas%molar_mass/(gas_constant*given%ambient_temperature), &
@@ -310,11 +313,11 @@ contains
       heat%reference = given%reference_temperature
       heat%carry_over = given%carry_over
       heat%shaft = wall_type(given%shaft, given%shaft_temperature, given%shaft_conductance, given%shaft_far_temperature, &
-                             bearing%radius*given%shaft_expansion)
+                             across*given%shaft_expansion)
       heat%sleeve = wall_type(given%sleeve, given%sleeve_temperature, given%sleeve_conductance, given%sleeve_far_temperature, &
-                              bearing%radius*given%sleeve_expansion)
+                              across*given%sleeve_expansion)
       heat%fin = given%shaft_conductivity*pi*(bearing%radius**2 - given%shaft_inner_radius**2)
-      heat%centrifugal = given%growth(bearing%radius, 1.0_wp)
+      heat%centrifugal = given%growth(bearing%radius, 1.0_wp)*cos(bearing%half_angle)
       heat%end_conductance = given%shaft_end_conductance
       heat%end_temperature = given%shaft_end_temperature
       heat%sheet = given%top_foil == foil_sheet
@@ -486,6 +489,7 @@ contains
       if (scene%model%foil%has_crest_springs) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
     end associate
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
+    if (scene%bearing%is_cone()) mesh%surface = cone(scene%bearing%radius, scene%bearing%half_angle, mesh%surface%offset)
 
   contains
 

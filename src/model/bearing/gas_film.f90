@@ -412,12 +412,13 @@ contains
     class(gas_film_type), intent(in) :: self !! this rank's film
     type(operating_point_type), intent(in) :: point !! operating point
     real(wp), intent(in) :: deflection(:) !! of the foil, away from the shaft [m]
-    real(wp) :: gap(size(deflection)), eccentricity(2)
+    real(wp) :: gap(size(deflection)), eccentricity(2), clearance
     integer :: i
 
     eccentricity = shift_of(self%part, point%place(:2))
+    clearance = merge(0.0_wp, self%clearance, self%surface%is_ring()) ! a runner's gap is its place
     gap = deflection + self%surface%gap(self%direction(1, :), self%direction(2, :), self%axial, &
-                                        level_of(self%part, self%clearance*self%surface%cosine), &
+                                        level_of(self%part, clearance), &
                                         eccentricity(1), eccentricity(2), point%place(3), &
                                         point%place(4), point%place(5))
     do i = 1, size(self%part)

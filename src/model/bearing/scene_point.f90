@@ -20,6 +20,7 @@ contains
     point%place(:2) = operation%eccentricity
     point%place(4:5) = operation%tilt
     if (abs(operation%axial_load) > 0.0_wp) point%load(axial_coordinate) = -operation%axial_load
+    point%place(axial_coordinate) = operation%axial_eccentricity
     if (operation%axial_gap > 0.0_wp) point%place(axial_coordinate) = -operation%axial_gap
     if (operation%moment_given) point%load(4:5) = operation%moment
   end function operating_point

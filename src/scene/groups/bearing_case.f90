@@ -2,7 +2,7 @@
 !> bore is no circle; `&ramp`: how the pads of a thrust bearing begin.
 module gfb_bearing_case
   use gfb_kinds, only: wp, most_pads
-  use gfb_units, only: turn
+  use gfb_units, only: turn, pi
   use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive, &
                            longest_list, any_value, not_negative, rule_type, unless
   use gfb_text, only: text
@@ -21,6 +21,7 @@ module gfb_bearing_case
   character(len=*), parameter, public :: needs_journal = "has no use with kind = 'thrust' in "// &
                                                          '&bearing'
   character(len=*), parameter, public :: needs_thrust = "needs kind = 'thrust' in &bearing"
+  character(len=*), parameter, public :: needs_cone = 'needs half_angle in &bearing'
 
   integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
   integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
@@ -37,6 +38,7 @@ module gfb_bearing_case
     real(wp) :: inner_radius = 0.0_wp        !! of a ring [m]
     real(wp) :: play = 0.0_wp                !! between two rings; 0: there is one [m]
     real(wp) :: length = 0.0_wp              !! across the motion: along the axis, or the radius [m]
+    real(wp) :: half_angle = 0.0_wp          !! of a cone; 0: it is none [rad]
     !> radial; of a thrust bearing the size of its gap, see `size_of_gap` [m]
     real(wp) :: clearance = 0.0_wp
     real(wp) :: ramp_part = 0.0_wp           !! of a pad's arc; 0: no ramp [1]
@@ -49,7 +51,7 @@ module gfb_bearing_case
     real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
     real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
   contains
-    procedure :: is_thrust, all_pads
+    procedure :: is_thrust, is_cone, all_pads
   end type bearing_case_type
 
   !> The bore.
@@ -79,10 +81,19 @@ contains
     ring = bearing%is_thrust()
     journal = unless(.not. ring, needs_journal)
     thrust = unless(bearing%kind /= kind_journal, needs_thrust)
-    call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft', positive, &
-                       needed .and. .not. ring, useless=journal)
-    call keys%real_key('length', bearing%length, 'm', 'length along the axis', positive, &
-                       needed .and. .not. ring, useless=journal)
+    call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft; of a cone in the '// &
+                       'middle of its length', positive, needed .and. .not. ring, useless=journal)
+    call keys%real_key('length', bearing%length, 'm', 'length along the axis; of a cone along '// &
+                       'its lines', positive, needed .and. .not. ring, useless=journal)
+    call keys%real_key('half_angle', bearing%half_angle, 'rad', 'of a conical bearing: angle '// &
+                       'of its lines with the axis; it is wider towards +z', &
+                       from_below(0.0_wp, 0.5_wp*pi), default='0: a cylinder', &
+                       useless=unless(with_film .or. .not. needed, 'has no use without a film'))
+    call keys%refuse('bearing', 'half_angle', ring, needs_journal)
+    call keys%rule('bearing', 'half_angle', bearing%is_cone() .and. bearing%radius > 0.0_wp .and. &
+                   0.5_wp*bearing%length*sin(bearing%half_angle) >= bearing%radius, &
+                   'must leave a radius at the narrow end: half of length times its sine is '// &
+                   text(0.5_wp*bearing%length*sin(bearing%half_angle), 4)//' m')
     call keys%real_key('outer_radius', bearing%radius, 'm', 'outer radius of the pads of a '// &
                        'thrust bearing', positive, ring, default=no_default, useless=thrust)
     call keys%real_key('inner_radius', bearing%inner_radius, 'm', 'their inner radius', &
@@ -96,7 +107,8 @@ contains
                        default='no bearing on the other side', useless=thrust)
     if (ring) bearing%length = max(bearing%radius - bearing%inner_radius, 0.0_wp)
     call keys%real_key('clearance', bearing%clearance, 'm', &
-                       'radial clearance, shaft to top foil at rest', positive, &
+                       'radial clearance, shaft to top foil at rest; of a cone normal to its '// &
+                       'surface, where nothing is moved', positive, &
                        with_film .and. .not. ring, default=merge('    ', no_default, with_film), &
                        useless=journal, acts_on=acts_on_film)
     call keys%real_key('leading_edge_angle', bearing%leading_edge_angle, 'rad', &
@@ -120,6 +132,12 @@ contains
     class(bearing_case_type), intent(in) :: self !! what `&bearing` asks for
     thrust = self%kind == kind_thrust
   end function is_thrust
+
+  !> Whether the film lies on a cone.
+  elemental logical function is_cone(self) result(cone)
+    class(bearing_case_type), intent(in) :: self !! what `&bearing` asks for
+    cone = self%half_angle > 0.0_wp
+  end function is_cone
 
   !> Pads on all sides of the runner, or around the shaft.
   elemental integer function all_pads(self) result(pads)

@@ -2,7 +2,8 @@
 module gfb_operation_case
   use gfb_kinds, only: wp, most_pads
   use gfb_units, only: rpm
-  use gfb_bearing_case, only: bearing_case_type, kind_journal, needs_journal, needs_thrust
+  use gfb_bearing_case, only: bearing_case_type, kind_journal, needs_journal, needs_thrust, &
+                              needs_cone
   use gfb_case_keys, only: case_keys_type, no_default, any_value, positive, unless
   use gfb_text, only: text
   use gfb_analysis_row, only: analysis_row_type
@@ -22,7 +23,8 @@ module gfb_operation_case
     real(wp) :: load(2) = 0.0_wp          !! external force on the shaft, x and y [N]
     real(wp) :: eccentricity(2) = 0.0_wp  !! of the sleeve relative to the shaft, x and y [m]
     real(wp) :: tilt(2) = 0.0_wp          !! of the sleeve against the shaft, about x and y [rad]
-    real(wp) :: axial_load = 0.0_wp       !! that presses a runner on its pads [N]
+    real(wp) :: axial_load = 0.0_wp       !! that presses runner on pads, shaft into cone [N]
+    real(wp) :: axial_eccentricity = 0.0_wp !! of a cone's sleeve relative to the shaft [m]
     real(wp) :: axial_gap = 0.0_wp        !! from their land to the runner, on the axis [m]
     real(wp) :: moment(2) = 0.0_wp        !! external, on the shaft of a thrust bearing [N m]
     real(wp), allocatable :: leading_edge_lift(:) !! of each pad or all, to start with, z = 0 [m]
@@ -55,10 +57,12 @@ contains
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     type(analysis_row_type), intent(in) :: analysis !! of the state
     logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
-    character(len=:), allocatable :: journal, thrust !! why keys of the kind have no use
+    character(len=:), allocatable :: journal, thrust, along !! why keys of the kind have no use
     logical :: ring
 
     ring = bearing%is_thrust()
+    along = unless(bearing%is_cone() .or. bearing%kind /= kind_journal, &
+                   needs_thrust//', or half_angle')
     journal = unless(.not. ring, needs_journal)
     thrust = unless(bearing%kind /= kind_journal, needs_thrust)
     call keys%start_group('operation', required=analysis%has_film, &
@@ -81,12 +85,17 @@ contains
                               required=analysis%holds .and. .not. ring, &
                               default='required for a fixed position', &
                               given=operation%eccentricity_given, useless=journal)
+    call keys%idle(unless(analysis%holds, 'the search for the equilibrium starts there'))
+    call keys%real_key('axial_eccentricity', operation%axial_eccentricity, 'm', 'position of '// &
+                       'the sleeve of a cone relative to the shaft, z, which narrows the gap: '// &
+                       'fixed, or where the search for an equilibrium starts', any_value, &
+                       useless=unless(bearing%is_cone(), needs_cone))
     call keys%idle(unless(.not. analysis%holds, 'the gap is given'))
     call keys%real_key('axial_load', operation%axial_load, 'N', 'force that presses the runner '// &
-                       'of a thrust bearing on its pads', &
+                       'of a thrust bearing on its pads, or the shaft into its cone, along -z', &
                        merge(any_value, positive, bearing%play > 0.0_wp), &
-                       ring .and. analysis%floats, default=no_default, &
-                       useless=thrust)
+                       (ring .or. bearing%is_cone()) .and. analysis%floats, default=no_default, &
+                       useless=along)
     call keys%idle(unless(analysis%holds, 'the search for the equilibrium starts there'))
     call keys%real_key('axial_gap', operation%axial_gap, 'm', 'gap from the land of its pads '// &
                        'to its runner, on the axis, foils at rest: held, or where the search '// &

@@ -7,7 +7,7 @@ module gfb_contactless_start
   use gfb_units, only: pi
   use gfb_ending, only: path_lost, path_touches_at
   use gfb_text, only: text
-  use gfb_film_surface, only: axial => axial_coordinate, translations
+  use gfb_film_surface, only: axial => axial_coordinate, translations, shaft_coordinates
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -256,14 +256,14 @@ contains
     type(path_settings_type), intent(in) :: settings
     type(path_report_type), intent(out) :: report
     type(saved_state_type) :: start
-    real(wp) :: unknown(bearing%local_size()), position(2)
+    real(wp) :: unknown(bearing%local_size()), place(shaft_coordinates)
 
     call newton%log%detail('the load at once, from ambient pressure')
     call start%save(bearing)
-    position = bearing%eccentricity()
+    place = bearing%shaft_place()
     unknown = 0.0_wp
     call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
-    unknown(bearing%first_shaft + 1:) = position
+    unknown(bearing%first_shaft + 1:) = place(bearing%coordinate)
     call bearing%set_unknowns(unknown)
     call solve_at(bearing, newton, target, .false., settings, report, max_iterations)
     if (.not. report%converged()) call start%restore(bearing)

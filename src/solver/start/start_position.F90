@@ -9,7 +9,7 @@ module gfb_start_position
   use gfb_scene, only: scene_type
   use gfb_operating_point, only: operating_point_type
   use gfb_film_load, only: acts_on, film_forces
-  use gfb_film_surface, only: translations
+  use gfb_film_surface, only: translations, axial_coordinate
   use gfb_solid_contact, only: contact_pressure
   use gfb_gap_part, only: gap_part_type
   use gfb_gap_shape, only: gap_shape_item_type
@@ -151,12 +151,13 @@ contains
     type(gap_shape_item_type), allocatable :: shape(:)
     real(wp) :: direction, free
 
-    bearing%point%place(:2) = target%place(:2)
+    bearing%point%place(:translations) = target%place(:translations)
     if (.not. bearing%floats) return
     if (.not. scene%operation%eccentricity_given) then
       call find_shapes(scene%bearing, scene%bore, scene%bearing%leading_edge_angle, 1.0_wp, shape)
       free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(peak_of(shape), 0.0_wp) &
-        - bearing%pad(1)%film%interference() - 0.5_wp*scene%bearing%length*norm2(target%place(4:5))
+        - bearing%pad(1)%film%interference() - 0.5_wp*scene%bearing%length*norm2(target%place(4:5)) &
+        - bearing%pad(1)%film%surface%sine*target%place(axial_coordinate)
       direction = start_attitude
       if (norm2(target%load(:2)) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%place(:2) = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
@@ -186,7 +187,7 @@ contains
 
     bearing%point%place(:2) = position
     unknown = 0.0_wp
-    unknown(bearing%first_shaft + 1:) = position
+    unknown(bearing%first_shaft + 1:) = bearing%point%place(bearing%coordinate)
     call bearing%set_unknowns(unknown)
   end subroutine place_shaft
 

@@ -7,6 +7,7 @@ module gfb_answer_record
   use gfb_result_names, only: find_result
   use gfb_result_table, only: result_type
   use gfb_text, only: text
+  use gfb_film_surface, only: translations
   use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_keys
   use gfb_bearing_system, only: bearing_system_type
@@ -86,7 +87,9 @@ contains
 
     associate (scene => solution%scene, bearing => solution%bearing)
       if (scene%sweep%friction_memory) call bearing%commit() ! the load was the first path of the foils
-      bearing%point%place(:2) = bearing%eccentricity()
+      associate (place => bearing%shaft_place())
+        bearing%point%place(:translations) = place(:translations)
+      end associate
       bearing%shaft_fixed = .true.
       call solution%context%log%line('shaft fixed at ('//text(bearing%point%place(1)*micrometres, 5)//', '// &
                                      text(bearing%point%place(2)*micrometres, 5)//') um')

@@ -3,7 +3,7 @@
 !> none.
 module gfb_bearing_solution
   use gfb_kinds, only: wp
-  use gfb_film_surface, only: axial_coordinate
+  use gfb_film_surface, only: axial_coordinate, translations
   use gfb_units, only: pi, degree
   use gfb_errors, only: error_type
   use gfb_text, only: text
@@ -269,7 +269,7 @@ contains
     type(operating_point_type) :: target
 
     target = operating_point(operation_at(self%scene%operation, self%scene%sweep, point))
-    if (self%scene%sweep%hold_position) target%place(:2) = self%bearing%point%place(:2)
+    if (self%scene%sweep%hold_position) target%place(:translations) = self%bearing%point%place(:translations)
   end function target_at
 
   !> Says whether the answer recorded last is on another branch than the one before.

@@ -410,11 +410,11 @@ contains
 
   contains
 
-    !> Whether an entry is a result of its own: translations, and a runner's tilts.
+    !> Whether an entry is a result of its own: of x and y, or along the axis, and a runner's tilts.
     pure logical function is_result(row, column)
       integer, intent(in) :: row, column
-      if (size(matrix, 1) == journal_motions) then
-        is_result = max(row, column) <= translations
+      if (size(matrix, 1) >= journal_motions) then
+        is_result = max(row, column) <= translations .or. (axes(row) == 'z' .and. axes(column) == 'z')
       else
         is_result = (row == 1) .eqv. (column == 1)
       end if

@@ -142,7 +142,8 @@ contains
     else if (plan%floats .and. scene%bearing%is_thrust()) then
       call log%line('runner: the axial gap is unknown, balanced with the load')
     else if (plan%floats) then
-      call log%line('shaft: (e_x, e_y) are unknowns, balanced with the load')
+      call log%line('shaft: (e_x, e_y'//trim(merge(', e_z', '     ', scene%bearing%is_cone()))// &
+                    ') are unknowns, balanced with the load')
     else
       call log%line('shaft: position given, no shaft unknowns')
     end if
@@ -336,7 +337,9 @@ contains
                   .not. scene%rotor%distance_in_time > 0.0_wp
       plan%half = symmetric .and. modulo(plan%axial, 2) == 0
       plan%half = plan%half .and. strips_mirror(scene)
-      if (.not. strips_mirror(scene)) then
+      if (scene%bearing%is_cone()) then
+        call log%line('width: whole, because the ends of a cone are not alike')
+      else if (.not. strips_mirror(scene)) then
         call log%line('width: whole, because the strips do not mirror each other')
       else if (.not. heat_mirrors(scene)) then
         call log%line('width: whole, because heat leaves one end otherwise than the other')
