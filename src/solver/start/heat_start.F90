@@ -27,6 +27,9 @@ module gfb_heat_start
   private
   public :: heat_up, carry_heat, show_heat
 
+  ! Counted on 78 members of `tools/bench population --set hot`, seeds 20 to 22, 38 of which have answers: 37 of these were looked at
+  ! and come with all heat at once, none in steps or from a lower speed. Those win no answer: they name 20 of the 40 refusals, as folds.
+  ! With 0.02 in the place of least_part 5 of these keep their fold, at 782 instead of 872 factorizations, but end at up to 3.5 % less heat.
   integer, parameter :: most_at_once = 15        !! Newton's iterations, of a step: those that converge take 5 to 9
   real(wp), parameter :: first_part = 0.3_wp     !! of the ambient temperature, or twice the clearance, that a first step may take [1]
   real(wp), parameter :: least_part = 1.0e-3_wp  !! of all heat, in a step [1]
