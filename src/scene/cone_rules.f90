@@ -21,7 +21,8 @@ contains
     integer :: point
 
     if (.not. scene%bearing%is_cone()) return
-    call keys%rule('model', 'foil', scene%model%foil%has_top_foil, "must be 'rigid' or 'elastic_foundation' with "// &
+    call keys%rule('model', 'foil', scene%model%foil%has_top_foil, "must be 'rigid' or "// &
+                   "'elastic_foundation' with "// &
                    'half_angle in &bearing: a foil on a cone is no plane when it is unrolled')
     call keys%rule('model', 'half_width', scene%model%half_width == half_width_yes, &
                    "must be 'no' with half_angle in &bearing: a cone's ends are not alike")

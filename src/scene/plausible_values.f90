@@ -96,9 +96,10 @@ module gfb_plausible_values
     range_type(100.0_wp, 2.0e6_wp, 'rpm', 'krpm', &
                'operation%speed_rpm transient%final_speed_rpm'), &
     range_type(0.0_wp, 2.0e-3_wp, 'm', 'mm,um', &
-               'operation%eccentricity operation%leading_edge_lift '// &
-               'operation%leading_edge_lift_edge'), &
+               'operation%eccentricity operation%axial_eccentricity '// &
+               'operation%leading_edge_lift operation%leading_edge_lift_edge'), &
     range_type(0.0_wp, 2.0e-2_wp, 'rad', 'mrad,deg', 'operation%tilt'), &
+    range_type(0.0_wp, 1.56_wp, 'rad', 'deg', 'bearing%half_angle'), &
     range_type(5.0e-6_wp, 2.0e-3_wp, 'm', 'mm,um', &
                'top_foil%thickness bump_foil%thickness bump_foil%bump_thickness '// &
                'bump_foil%strip_thickness'), &
