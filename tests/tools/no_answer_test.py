@@ -30,7 +30,7 @@ def flat(text):
 
 class NoAnswer(unittest.TestCase):
     def setUp(self):
-        files = [path for folder in ("solver", "study", "program") for path in (PROJECT/"src"/folder).rglob("*.?90")]
+        files = [path for folder in ("model", "solver", "study", "program") for path in (PROJECT/"src"/folder).rglob("*.?90")]
         self.sources = {path: flat(path.read_text(encoding="utf-8")) for path in files}
         self.page = (PROJECT/"docs/manual/no_answer.md").read_text(encoding="utf-8")
 
