@@ -64,9 +64,9 @@ USUAL_OF_LIMITS = {  # what is looked for, and what it makes of the bearing
     "misalignment_allowance": ("misalignment_allowance", "attitude_angle", "maximum_pressure", "friction_torque")}
 OF_FILMS = {polar.KIND: polar.draw, heat.KIND: heat.draw_film}  # beside what is drawn unasked
 ROUND_OFF = 1.0e-12  # of the largest number of a unit: a smaller one is zero
-USUAL_OF_ONE = ("force_x", "force_y", "eccentricity_x", "eccentricity_y", "attitude_angle", "minimum_gap", "minimum_gap_midplane",
-                "minimum_gap_edge", "maximum_pressure", "minimum_pressure", "torque_x", "torque_y", "friction_torque", "power_loss",
-                "critical_mass", "whirl_ratio", "load_capacity", "load_capacity_coefficient", "lift_off_speed_rpm",
+USUAL_OF_ONE = ("force_x", "force_y", "axial_force", "eccentricity_x", "eccentricity_y", "axial_eccentricity", "axial_gap",
+                "attitude_angle", "minimum_gap", "minimum_gap_midplane", "minimum_gap_edge", "maximum_pressure", "minimum_pressure",
+                "torque_x", "torque_y", "friction_torque", "power_loss", "critical_mass", "whirl_ratio", "load_capacity", "load_capacity_coefficient", "lift_off_speed_rpm",
                 "misalignment_allowance")
 
 

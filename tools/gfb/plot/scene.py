@@ -12,7 +12,8 @@ from gfb.results import BROKEN, open_results, used_keys
 MODELS = {"rigid": "rigid", "elastic_foundation": "elastic foundation", "beam": "beams", "shell": "shells", "plate": "plate on crests"}
 WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle": "angle of the load", "minimum_gap": "thinnest film",
          "minimum_gap_midplane": "thinnest film, midplane", "minimum_gap_edge": "thinnest film, edges", "eccentricity_x": "e_x",
-         "eccentricity_y": "e_y", "torque_x": "torque about x", "torque_y": "torque about y", "force_x": "force along x",
+         "eccentricity_y": "e_y", "axial_eccentricity": "e_z", "torque_x": "torque about x", "torque_y": "torque about y",
+         "force_x": "force along x",
          "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
          "minimum_pressure": "smallest pressure, absolute", "axial_gap": "axial gap", "axial_force": "axial force",
          "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
