@@ -76,9 +76,9 @@ function(gfb_compile_options target)
   endif()
 endfunction()
 
-# gfb_little_optimised(LEVEL TARGET ...): what hardly computes is compiled in a half (-O1) or a fifth (-O0) of the time that its layers
-# and tests take with -O2, most of it for copies of large types. Numbers stay the same to the last bit.
-function(gfb_little_optimised level)
+# gfb_optimise(LEVEL TARGET ...): another level than -O2. What hardly computes is compiled in a half (-O1) or a fifth (-O0) of the time,
+# most of which went into copies of large types. Numbers may move by 1e-15.
+function(gfb_optimise level)
   foreach(target ${ARGN})
     target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANG_AND_ID:Fortran,GNU>,$<CONFIG:Release>>:${level}>)
   endforeach()

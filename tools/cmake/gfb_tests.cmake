@@ -89,9 +89,6 @@ function(gfb_stand_in_executable name)
   set_target_properties(${name} PROPERTIES Fortran_MODULE_DIRECTORY ${folder}/modules)
   target_link_libraries(${name} PRIVATE ${TEST_LINK_LIBRARIES} ${library})
   gfb_compile_options(${name})
-  if(NOT name MATCHES "^unit_formulas_") # those compute by themselves
-    gfb_little_optimised(-O0 ${name})
-  endif()
 endfunction()
 
 # Tests from .pf files, one executable and one test:
@@ -128,10 +125,12 @@ function(gfb_pf_test name)
     endforeach()
     add_pfunit_ctest(${name} TEST_SOURCES ${relative} ${settings})
     target_compile_options(${name} PRIVATE $<$<Fortran_COMPILER_ID:GNU>:-ffree-line-length-none>)
-    gfb_little_optimised(-O0 ${name})
   else()
     gfb_stand_in_executable(${name} TEST_SOURCES ${TEST_TEST_SOURCES} ${settings})
     add_test(NAME ${name} COMMAND ${command} --verbose)
+  endif()
+  if(NOT name MATCHES "^unit_formulas_") # those compute by themselves
+    gfb_optimise(-O0 ${name})
   endif()
   gfb_test_settings(${name} LABELS ${TEST_LABELS} PROCESSORS ${TEST_MAX_PES} TIMEOUT ${TEST_TIMEOUT})
 endfunction()
