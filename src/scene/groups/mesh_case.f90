@@ -21,9 +21,11 @@ module gfb_mesh_case
   character(len=*), parameter :: linear_words(*) = [character(len=11) :: &
                                                     'direct', 'out_of_core', 'iterative']
 
-  !> Of a search from nothing: the dearest answers of docs/measured/population.md take 1,242, with
-  !> shells 834.
+  !> Of a search from nothing, unless the case bounds it. The dearest answers of
+  !> docs/measured/population.md take 1,242 factorizations and 2.6e6 unknowns, with shells 834 and
+  !> 3.7e6. A million unknowns take 2 to 13 s.
   integer, parameter :: usual_factorizations = 1500, usual_of_shells = 900
+  real(wp), parameter :: usual_work = 3.0e6_wp, usual_work_of_shells = 7.0e6_wp
 
   !> Tolerances and limits.
   type :: solver_case_type
@@ -31,7 +33,9 @@ module gfb_mesh_case
     real(wp) :: step_tolerance = 1.0e-9_wp      !! of the scaled step [1]
     integer :: maximum_iterations = 40          !! Newton steps of one load step
     integer :: maximum_load_steps = 200
-    integer :: maximum_factorizations = usual_factorizations !! of a search from nothing
+    integer :: maximum_factorizations = 0 !! of a search from nothing; 0: as many as usual
+    integer :: most_factorizations = usual_factorizations !! that it may take then
+    real(wp) :: most_work = usual_work !! unknowns that it may factor then, each time counted
     real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole path [1]
     real(wp) :: touch_down_gap = 0.0_wp         !! below it an equilibrium is refused [m]
     logical :: stability = .false.              !! count the foils' modes that grow
@@ -77,13 +81,21 @@ contains
                           'Newton steps of one load step at most', from_to(1.0_wp, most_iterations))
     call keys%integer_key('maximum_load_steps', solver%maximum_load_steps, &
                           'load steps at most', from_to(1.0_wp, most_iterations))
-    if (shells) solver%maximum_factorizations = usual_of_shells
     call keys%integer_key('maximum_factorizations', solver%maximum_factorizations, &
                           'factorizations, of all meshes, after which a search from '// &
                           'nothing gives up', &
-                          from_to(1.0_wp, most_iterations), &
-                          default=text(usual_factorizations)//', with shells '// &
+                          from_to(0.0_wp, most_iterations), &
+                          default='0: when they have factored '//text(usual_work, 2)// &
+                          ' unknowns, with shells '//text(usual_work_of_shells, 2)// &
+                          ', and after '//text(usual_factorizations)//', with shells '// &
                           text(usual_of_shells))
+    if (solver%maximum_factorizations > 0) then
+      solver%most_factorizations = solver%maximum_factorizations
+      solver%most_work = huge(1.0_wp)
+    else if (shells) then
+      solver%most_factorizations = usual_of_shells
+      solver%most_work = usual_work_of_shells
+    end if
     call keys%real_key('smallest_load_step', solver%smallest_load_step, '1', &
                        'smallest load step, over the whole path, before the path is given up', &
                        between(0.0_wp, 1.0_wp))

@@ -320,7 +320,7 @@ contains
     call newton%system%linearise(newton%system%state)
     call forget_secants(newton%secants)
     newton%factorizations = newton%factorizations + 1
-    call count_factorization(newton%settings%bound)
+    call count_factorization(newton%settings%bound, newton%unknowns)
     PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
     before = newton%enlargements
@@ -423,7 +423,7 @@ contains
     if (.not. fill) return
     if (newton%linear%fresh) then
       newton%factorizations = newton%factorizations + 1
-      call count_factorization(newton%settings%bound)
+      call count_factorization(newton%settings%bound, newton%unknowns)
     end if
     call forget_secants(newton%secants)
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)

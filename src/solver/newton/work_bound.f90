@@ -1,5 +1,10 @@
 !> How much a search for an answer may cost.
+!>
+!> It is bounded by work that no machine's speed changes: unknowns that are factored, which the time
+!> of a search follows, where one factorization costs from 1 ms to 1 s by its mesh; and by a plain
+!> count, which the user may set.
 module gfb_work_bound
+  use gfb_kinds, only: wp
   use gfb_signals, only: stop_agreed
   use gfb_text, only: text
   implicit none (type, external)
@@ -11,8 +16,10 @@ module gfb_work_bound
   !> Factorizations that all solvers of a search share, one mesh after the other.
   type, public :: work_bound_type
     private
-    integer :: most = huge(1) !! that the search may take
-    integer :: spent = 0      !! so far
+    integer :: most = huge(1)            !! that the search may take
+    integer :: spent = 0                 !! so far
+    real(wp) :: most_work = huge(1.0_wp) !! unknowns that it may factor, each time counted
+    real(wp) :: work = 0.0_wp            !! so far
   contains
     procedure :: begin, lift, is_reached, words
   end type work_bound_type
@@ -20,24 +27,30 @@ module gfb_work_bound
 contains
 
   !> Begins to count, as a search begins.
-  pure subroutine begin(self, most)
+  pure subroutine begin(self, most, most_work)
     class(work_bound_type), intent(inout) :: self !! of the search
     integer, intent(in) :: most !! factorizations it may take
+    !> unknowns that it may factor, each time counted; absent: any number
+    real(wp), intent(in), optional :: most_work
 
     self%most = most
+    self%most_work = huge(1.0_wp)
+    if (present(most_work)) self%most_work = most_work
     self%spent = 0
+    self%work = 0.0_wp
   end subroutine begin
 
   !> Bounds nothing more, as a search has ended.
   pure subroutine lift(self)
     class(work_bound_type), intent(inout) :: self !! of the search
     self%most = huge(1)
+    self%most_work = huge(1.0_wp)
   end subroutine lift
 
   !> Whether all factorizations are spent.
   pure logical function is_reached(self) result(reached)
     class(work_bound_type), intent(in) :: self !! of the search
-    reached = self%spent >= self%most
+    reached = self%spent >= self%most .or. self%work >= self%most_work
   end function is_reached
 
   !> What a search that gave up says.
@@ -48,9 +61,13 @@ contains
   end function words
 
   !> Counts a factorization.
-  subroutine count_factorization(bound)
+  subroutine count_factorization(bound, unknowns)
     type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
-    if (associated(bound)) bound%spent = bound%spent + 1
+    real(wp), intent(in) :: unknowns !! of the system, on all ranks
+
+    if (.not. associated(bound)) return
+    bound%spent = bound%spent + 1
+    bound%work = bound%work + unknowns
   end subroutine count_factorization
 
   !> Whether a search has spent all of them.

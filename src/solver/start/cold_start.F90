@@ -67,7 +67,8 @@ contains
   !> Begins to count what a search costs, where it is bounded.
   subroutine begin_search(request)
     type(search_request_type), intent(in) :: request
-    if (associated(request%tolerances%bound)) call request%tolerances%bound%begin(request%scene%solver%maximum_factorizations)
+    if (.not. associated(request%tolerances%bound)) return
+    call request%tolerances%bound%begin(request%scene%solver%most_factorizations, request%scene%solver%most_work)
   end subroutine begin_search
 
   !> What follows a search from nothing is not bounded; one that gave up says so.

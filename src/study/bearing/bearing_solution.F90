@@ -257,7 +257,7 @@ contains
       call report%ending%add_words('no equilibrium to begin with: ', '')
       return
     end if
-    call self%bound%begin(self%here%solver%maximum_factorizations)
+    call self%bound%begin(self%here%solver%most_factorizations, self%here%solver%most_work)
     call find_limit(self%here, self%context%log, self%path, self%bearing, self%newton, self%record%limit, self%record%at_fold, report)
     call self%bound%lift()
   end subroutine approach_limit
