@@ -9,6 +9,7 @@
 !> table has between the points of an element counts, however many points of the table that are.
 module gfb_gap_shape
   use gfb_kinds, only: wp
+  use gfb_sorting, only: sorted
   use gfb_units, only: turn
   implicit none (type, external)
   private
@@ -150,7 +151,7 @@ contains
 
     left = modulo(angle, turn)
     where (turn - left < same_angle) left = 0.0_wp
-    call sort(left)
+    left = sorted(left)
     kink = pack(left, [(i == 1 .or. left(i) > left(max(i - 1, 1)) + same_angle, i=1, size(left))])
   end function in_order
 
@@ -167,33 +168,6 @@ contains
       peak = max(peak, self%height(angle(i), 0.0_wp))
     end do
   end function peak
-
-  !> Puts numbers into rising order, by runs of 1, 2, 4, ... that are merged.
-  pure subroutine sort(number)
-    real(wp), intent(inout) :: number(:) !! in any unit [SI]
-    real(wp) :: merged(size(number))
-    integer :: width, first, middle, last, left, right, i
-    logical :: take_left
-
-    width = 1
-    do while (width < size(number))
-      do first = 1, size(number), 2*width
-        middle = min(first + width, size(number) + 1)
-        last = min(first + 2*width - 1, size(number))
-        left = first
-        right = middle
-        do i = first, last
-          take_left = right > last
-          if (.not. take_left .and. left < middle) take_left = number(left) <= number(right)
-          merged(i) = number(merge(left, right, take_left))
-          left = left + merge(1, 0, take_left)
-          right = right + merge(0, 1, take_left)
-        end do
-      end do
-      number = merged
-      width = 2*width
-    end do
-  end subroutine sort
 
   !> How many of rising numbers, counted from an origin, are not larger than another.
   pure integer function count_up_to(rising, number, origin) result(count)

@@ -1,6 +1,7 @@
 !> Places cut into patches of neighbours.
 module gfb_node_patches
   use gfb_kinds, only: wp
+  use gfb_sorting, only: sort_by
   implicit none (type, external)
   private
   public :: cut_into_patches
@@ -45,38 +46,4 @@ contains
       if (middle > 0) first = [first, middle, part]
     end do
   end subroutine cut_into_patches
-
-  !> Sorts numbers by a key, equal keys by number: merge sort.
-  pure recursive subroutine sort_by(key, list)
-    real(wp), intent(in) :: key(:)
-    integer, intent(inout) :: list(:) !! places in `key`
-    integer :: merged(size(list)), left, right, half, i
-    logical :: take_left
-
-    half = size(list)/2
-    if (half == 0) return
-    call sort_by(key, list(:half))
-    call sort_by(key, list(half + 1:))
-    left = 1
-    right = half + 1
-    do i = 1, size(list)
-      take_left = right > size(list)
-      if (left <= half .and. .not. take_left) take_left = comes_first(key, list(left), list(right))
-      if (take_left) then
-        merged(i) = list(left)
-        left = left + 1
-      else
-        merged(i) = list(right)
-        right = right + 1
-      end if
-    end do
-    list = merged
-  end subroutine sort_by
-
-  !> Whether one number stands before another.
-  pure logical function comes_first(key, one, other) result(before)
-    real(wp), intent(in) :: key(:)
-    integer, intent(in) :: one, other
-    before = key(one) < key(other) .or. (key(one) <= key(other) .and. one < other)
-  end function comes_first
 end module gfb_node_patches

@@ -1,6 +1,7 @@
 !> Mean, deviation and quantiles of numbers.
 module gfb_sample_statistics
   use gfb_kinds, only: wp
+  use gfb_sorting, only: sorted
   implicit none (type, external)
   private
   public :: mean_of, deviation_of, quantile_of
@@ -28,41 +29,14 @@ contains
   pure real(wp) function quantile_of(numbers, part) result(quantile)
     real(wp), intent(in) :: numbers(:) !! [any unit] one at least
     real(wp), intent(in) :: part       !! between 0 and 1 [1]
-    real(wp) :: sorted(size(numbers)), place
+    real(wp) :: rising(size(numbers)), place
     integer :: below
 
-    sorted = in_order(numbers)
+    rising = sorted(numbers)
     place = 1.0_wp + part*(size(numbers) - 1)
     below = min(int(place), size(numbers))
-    quantile = sorted(below)
+    quantile = rising(below)
     if (below == size(numbers)) return
-    quantile = quantile + (place - below)*(sorted(below + 1) - sorted(below))
+    quantile = quantile + (place - below)*(rising(below + 1) - rising(below))
   end function quantile_of
-
-  !> The numbers, the smallest first: halves are put in order and merged.
-  pure recursive function in_order(numbers) result(sorted)
-    real(wp), intent(in) :: numbers(:)
-    real(wp) :: sorted(size(numbers))
-    real(wp), allocatable :: first(:), second(:)
-    integer :: i, k, place
-    logical :: from_first
-
-    sorted = numbers
-    if (size(numbers) < 2) return
-    first = in_order(numbers(:size(numbers)/2))
-    second = in_order(numbers(size(numbers)/2 + 1:))
-    i = 1
-    k = 1
-    do place = 1, size(sorted)
-      from_first = k > size(second)
-      if (.not. from_first .and. i <= size(first)) from_first = first(i) <= second(k)
-      if (from_first) then
-        sorted(place) = first(i)
-        i = i + 1
-      else
-        sorted(place) = second(k)
-        k = k + 1
-      end if
-    end do
-  end function in_order
 end module gfb_sample_statistics
