@@ -9,8 +9,8 @@ module gfb_general_film
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_state_type, gas_state
-  use gfb_film_flow, only: film_flow_type, flow_here, cell_peclet, upwind_weight, &
-                           upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_upwind_weight, only: cell_peclet, upwind_weight, upwind_weight_derivative
   implicit none (type, external)
   private
   public :: film_flow_type, general_residual, general_jacobian, general_peclet, peclet_slopes, &

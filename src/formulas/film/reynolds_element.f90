@@ -7,8 +7,8 @@ module gfb_reynolds_element
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shape, film_nodes, biquadratic_shape, &
                                biquadratic_nodes
-  use gfb_film_flow, only: film_flow_type, flow_here, cell_peclet, upwind_weight, &
-                           upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_upwind_weight, only: cell_peclet, upwind_weight, upwind_weight_derivative
   implicit none (type, external)
   private
   public :: reynolds_residual, reynolds_jacobian

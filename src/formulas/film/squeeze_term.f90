@@ -20,7 +20,8 @@ module gfb_squeeze_term
                                biquadratic_shape, biquadratic_nodes
   use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_density
   use gfb_general_film, only: general_peclet, peclet_slopes, factors_at
-  use gfb_film_flow, only: film_flow_type, flow_here, upwind_weight, upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_upwind_weight, only: upwind_weight, upwind_weight_derivative
   implicit none (type, external)
   private
   public :: squeeze_weights, squeeze_jacobian, stored_gas, storage_residual, storage_jacobian

@@ -16,7 +16,8 @@
 !> An ideal gas needs no term of dissipation: \( c_p T \mathbf{m} = (c_p/R_g) p \mathbf{Q} \).
 module gfb_heated_film
   use gfb_kinds, only: wp
-  use gfb_film_flow, only: film_flow_type, flow_here, upwind_weight, upwind_weight_derivative
+  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_upwind_weight, only: upwind_weight, upwind_weight_derivative
   use gfb_film_geometry, only: film_geometry_type, film_shapes, most_film_nodes
   use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_state, gas_state_type, &
                          viscosity_sutherland, viscosity_power, sutherland_temperature
