@@ -46,12 +46,20 @@ module gfb_bearing
   !> A block of a bearing's equations beside those of its pads: unknowns of its own, what it adds to the residual and to the matrix,
   !> what it remembers over a step of time.
   !>
-  !> Whoever numbers, scales, assembles, orders, saves or transfers a bearing, moves it in time, shows its fields or derives its
-  !> numbers goes through its list of blocks. The unknowns are
-  !> fields at the nodes of all films, or scalars of all pads together, which the last rank owns; what a block leaves out it does
-  !> not have. None of its procedures is a function: gfortran 12 frees a pointer to one whose result is allocatable.
+  !> The unknowns are fields at the nodes of all films, or scalars of all pads together, which the last rank owns; what a block leaves
+  !> out it does not have. None of its procedures is a function: gfortran 12 frees a pointer to one whose result is allocatable.
+  !>
+  !> What a block writes follows from what it is:
+  !>
+  !>     any with unknowns       fields or scalars, unknown_size, take_numbers, equation_sizes, add_residual, add_jacobian
+  !>     ... that move the gap   add_gap, and follow_gap where numbers are derived
+  !>     ... shown or measured   shown and show; numbers, extremes, extreme_field, measure and add_number_rates
+  !>     of what pads are        take_state, add_jacobian: softness
+  !>     a force over time       prepare_step, add_force, add_stiffness, end_motion: losses
+  !>     ... with a memory       end_step and visit, too: momentum; recall_step where pads hold it: dampers
   type, public :: bearing_block_type
     character(len=8) :: name = ''
+    ! its unknowns: asked by the numbering, scales, searches and transfers to a finer mesh
     integer :: fields = 0              !! unknowns of each film node
     integer :: scalars = 0             !! unknowns of all pads together
     real(wp) :: unknown_size = 1.0_wp  !! of each unknown, in SI
@@ -59,31 +67,32 @@ module gfb_bearing
     logical :: positive = .false.      !! no state has others
     logical :: has_film = .false.      !! its equations are those of the films, too: pads have no term for them
     logical :: is_slow = .false.       !! its unknowns change in seconds: where a shaft moves, in milliseconds, they are held
-    character(len=32) :: mover = ''    !! what of it may make answers along a path turn back
     integer, allocatable :: first(:)   !! (pads) local unknowns of the bearing before the fields of each pad
     integer :: first_scalar = 0        !! the same of the scalars
     procedure(take_numbers), pointer, nopass :: take_numbers => null()
-    ! equations
+    procedure(scalar_groups), pointer, nopass :: groups => null()
+    ! asked by the assembly, in SI
     procedure(equation_sizes), pointer, nopass :: equation_sizes => null()
     procedure(take_state), pointer, nopass :: take_state => null()
     procedure(block_gap), pointer, nopass :: add_gap => null()
     procedure(residual_block), pointer, nopass :: add_residual => null()
     procedure(matrix_block), pointer, nopass :: add_jacobian => null()
-    ! equations in vectors and matrices that are scaled: of a step of time
+    ! asked by a march through time: the first two by the assembly of its steps, in vectors and matrices that are scaled
     procedure(scaled_force), pointer, nopass :: add_force => null()
     procedure(scaled_stiffness), pointer, nopass :: add_stiffness => null()
-    ! memory over time
     procedure(time_step), pointer, nopass :: prepare_step => null()
     procedure(time_step), pointer, nopass :: end_step => null()
-    procedure(recalled_step), pointer, nopass :: recall_step => null()
-    procedure(block_visit), pointer, nopass :: visit => null()
     procedure(block_end), pointer, nopass :: end_motion => null()
-    ! what others ask of its unknowns
-    procedure(scalar_groups), pointer, nopass :: groups => null()
+    ! asked by restart files
+    procedure(block_visit), pointer, nopass :: visit => null()
+    procedure(recalled_step), pointer, nopass :: recall_step => null()
+    ! asked by a path that may turn back
+    character(len=32) :: mover = ''    !! what of it may make answers along a path turn back
     procedure(runaway_gauge), pointer, nopass :: gauge => null()
-    type(shown_field_type), allocatable :: shown(:) !! fields of results
+    ! asked by result files
+    type(shown_field_type), allocatable :: shown(:) !! fields
     procedure(shown_field), pointer, nopass :: show => null()
-    ! numbers of an answer and their derivatives
+    ! asked by sensitivities: numbers of an answer and their derivatives
     integer :: numbers = 0             !! that it adds to those of every bearing
     integer :: extremes = 0            !! fields whose largest values are among them
     procedure(shown_field), pointer, nopass :: extreme_field => null()
