@@ -28,8 +28,9 @@ module gfb_bearing_blocks
     !> numbers of its values in the whole sweep, or of its frequencies
     integer :: first = 1, last = 0
     integer :: status = 0          !! exit status that gfb would have had
-    !> Newton iterations, factorizations, those of the finest mesh's matrix
-    integer :: count(3) = 0
+    integer :: iterations = 0              !! of Newton's method
+    integer :: factorizations = 0
+    integer :: factorizations_finest = 0   !! those of the finest mesh's matrix
     type(reason_type) :: reason    !! why it ended before its last value, or has no answer
     type(history_row_type), allocatable :: row(:)  !! its points
     !> The first point of the block behind, from its own last one; none where there is none.
@@ -50,7 +51,9 @@ contains
     call archive%visit('first', block%first)
     call archive%visit('last', block%last)
     call archive%visit('status', block%status)
-    call archive%visit('count', block%count)
+    call archive%visit('iterations', block%iterations)
+    call archive%visit('factorizations', block%factorizations)
+    call archive%visit('factorizations_finest', block%factorizations_finest)
     call archive%visit('reason_code', block%reason%code)
     call archive%visit('reason_at', block%reason%at)
     call archive%visit('reason_of', block%reason%of)
@@ -76,20 +79,22 @@ contains
     type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
     type(history_row_type), allocatable, intent(out) :: history(:) !! one row a point
     type(history_row_type) :: row
-    integer :: i, k, before(2)
+    integer :: i, k, iterations, factorizations ! of the blocks before
 
     allocate (history(0))
-    before = 0
+    iterations = 0
+    factorizations = 0
     do i = 1, size(blocks)
       do k = 1, size(blocks(i)%row)
         row = blocks(i)%row(k)
-        call add_to(row, 'newton_iterations', before(1))
-        call add_to(row, 'factorizations', before(2))
+        call add_to(row, 'newton_iterations', iterations)
+        call add_to(row, 'factorizations', factorizations)
         if (k == 1 .and. parts(scene, blocks, i)) call add_to(row, 'branch_changed', 1)
         if (size(history) > 0) call match_secants(tilt_axis(scene%sweep), history(1), row)
         history = [history, row]
       end do
-      before = before + blocks(i)%count(:2)
+      iterations = iterations + blocks(i)%iterations
+      factorizations = factorizations + blocks(i)%factorizations
     end do
   end subroutine merge_histories
 

@@ -179,7 +179,9 @@ contains
     integer :: found
     logical :: whole
 
-    block%count = [study%iterations, study%factorizations, study%factorizations_finest]
+    block%iterations = study%iterations
+    block%factorizations = study%factorizations
+    block%factorizations_finest = study%factorizations_finest
     whole = study%converged
     associate (solution => study%solution)
       block%dynamics = solution%record%dynamics
@@ -273,7 +275,7 @@ contains
       result%converged = all(blocks%status == 0)
       result%reason = reason_of(blocks)
       result%plan = study%plan
-      result%cost = cost_type(study%unknowns, sum(blocks%count(1)), sum(blocks%count(2)), sum(blocks%count(3)), &
+      result%cost = cost_type(study%unknowns, sum(blocks%iterations), sum(blocks%factorizations), sum(blocks%factorizations_finest), &
                               wall_time() - pool%begun, memory)
       result%ranks = pool%ranks
       result%origin = pool%origin(context)
