@@ -7,8 +7,10 @@
 !>
 !> with f the steady equations, c the gas that the film's elements hold, and D what dissipates in the foil
 !> and what it weighs: its springs are \( k (1 + i \eta \, sgn \, \omega) + \lambda c + k_m \lambda\tau/(1 + \lambda\tau) \), the
-!> last with a Maxwell arm (`gfb_maxwell_arm`), its mass is that of `gfb_vibration_equations`. This is the only place where a foil's stiffness depends on the frequency;
-!> `gfb_dynamic_response` fills the matrices, `gfb_foil_weighing` the mass.
+!> last with a Maxwell arm (`gfb_maxwell_arm`), its mass is that of `gfb_vibration_equations`. This is the only place where a foil's stiffness depends on the frequency.
+!>
+!> So the matrix is that of f, the mass, and a list of parts: matrices, each with a law by which \( \lambda \) weights it. Who combines,
+!> derives or frees goes through the list; `gfb_dynamic_response` makes it, `gfb_foil_weighing` the mass.
 !>
 !> What the mass of a foil does in its equations.
 !>
@@ -28,7 +30,11 @@ module gfb_vibration_equations
   use gfb_maxwell_arm, only: maxwell_arm_type, arm_stiffness, arm_stiffness_rate
   implicit none (type)
   private
-  public :: add_inertia, destroy_inertia, combine, combine_rate, weights_at, weight_rates_at, dissipates, destroy_equations
+  public :: add_inertia, destroy_inertia, combine, combine_rate, weights_at, weight_rates_at, dissipates, add_part, rate_at_rest, &
+            destroy_equations
+
+  !> Laws by which parts are weighted, see `weights_type`.
+  integer, parameter, public :: by_rate = 1, by_springs = 2, by_local_springs = 3, by_rate_of_local_springs = 4
 
   !> The mass, or why there is none.
   type, public :: foil_inertia_type
@@ -58,15 +64,23 @@ module gfb_vibration_equations
     complex(wp) :: springs         !! l, what the foil adds to its stiffness, over it [1]
     complex(wp) :: flow_by_gap     !! of local springs 1/(1 + l) - 1 [1]
     complex(wp) :: squeeze_by_gap  !! the same times lambda [1/s]
+  contains
+    procedure :: of_law
   end type weights_type
+
+  !> A part of the equations: a matrix, scaled as the bearing's, which \( \lambda \) weights by a law.
+  type, public :: vibration_part_type
+    integer :: law = by_rate
+    type(tMat) :: matrix
+  end type vibration_part_type
 
   !> Derivatives of the equations by the unknowns.
   type, public :: vibration_equations_type
     type(vibration_type) :: vibration
     logical :: local_springs = .false. !! a node's pressure moves the foil there
     logical :: meshed = .false.        !! the foil has unknowns by the thousand, which all lose
-    type(tMat) :: steady, squeeze !! f_x and c_x
-    type(tMat) :: flow_by_gap, squeeze_by_gap, springs !! shares of them that springs with losses turn
+    type(tMat) :: steady !! f_x
+    type(vibration_part_type), allocatable :: part(:) !! beside it and the mass
     type(foil_inertia_type) :: inertia !! of the foil, nothing by default
     type(tMat) :: real_part, imaginary_part !! of the matrix that was combined last
   end type vibration_equations_type
@@ -152,6 +166,16 @@ contains
     weights%squeeze_by_gap = rate*weights%flow_by_gap
   end function weights_at
 
+  !> That of a law.
+  pure complex(wp) function of_law(self, law) result(weight)
+    class(weights_type), intent(in) :: self !! the weights, or their derivatives
+    integer, intent(in) :: law !! of a part
+    complex(wp) :: all_weights(by_rate_of_local_springs)
+
+    all_weights = [self%squeeze, self%springs, self%flow_by_gap, self%squeeze_by_gap]
+    weight = all_weights(law)
+  end function of_law
+
   !> Their derivatives by \( \lambda \); a loss factor stays what it is.
   pure function weight_rates_at(vibration, rate) result(rates)
     type(vibration_type), intent(in) :: vibration !! of the foil
@@ -177,9 +201,8 @@ contains
     weights = weights_at(equations%vibration, rate)
     PetscCallA(MatCopy(equations%steady, equations%real_part, SAME_NONZERO_PATTERN, ierr))
     PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
-    call add_multiple(equations, weights%squeeze, equations%squeeze)
     call add_inertia(equations%inertia, rate, weights, equations%real_part, equations%imaginary_part)
-    call add_losses(equations, weights)
+    call add_parts(equations, weights)
   end subroutine combine
 
   !> The derivative of that matrix by \( \lambda \), in its place.
@@ -194,55 +217,68 @@ contains
     rates = weight_rates_at(equations%vibration, rate)
     PetscCallA(MatZeroEntries(equations%real_part, ierr))
     PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
-    call add_multiple(equations, rates%squeeze, equations%squeeze)
     weighs = .true.
     if (present(without_mass)) weighs = .not. without_mass
     if (weighs) call add_inertia(equations%inertia, rate, weights_at(equations%vibration, rate), equations%real_part, &
                                  equations%imaginary_part, rates)
-    call add_losses(equations, rates)
+    call add_parts(equations, rates)
   end subroutine combine_rate
 
-  !> Adds what springs with losses do.
-  subroutine add_losses(equations, weights)
+  !> Adds all parts to the matrices that are combined.
+  subroutine add_parts(equations, weights)
     type(vibration_equations_type), intent(in) :: equations
     type(weights_type), intent(in) :: weights !! or their derivatives
+    complex(wp) :: factor
+    PetscErrorCode :: ierr
+    integer :: k
 
-    if (.not. dissipates(equations)) return
-    if (equations%local_springs) then
-      call add_multiple(equations, weights%flow_by_gap, equations%flow_by_gap)
-      call add_multiple(equations, weights%squeeze_by_gap, equations%squeeze_by_gap)
-    else
-      call add_multiple(equations, weights%springs, equations%springs)
-    end if
-  end subroutine add_losses
+    do k = 1, size(equations%part)
+      factor = weights%of_law(equations%part(k)%law)
+      PetscCallA(MatAXPY(equations%real_part, real(factor, wp), equations%part(k)%matrix, SAME_NONZERO_PATTERN, ierr))
+      PetscCallA(MatAXPY(equations%imaginary_part, aimag(factor), equations%part(k)%matrix, SAME_NONZERO_PATTERN, ierr))
+    end do
+  end subroutine add_parts
 
-  !> Adds a multiple of a matrix to those that are combined.
-  subroutine add_multiple(equations, factor, matrix)
-    type(vibration_equations_type), intent(in) :: equations
-    complex(wp), intent(in) :: factor
-    Mat, intent(in) :: matrix
+  !> Adds a part to the list; the one who made its matrix fills it.
+  subroutine add_part(law, equations, matrix)
+    integer, intent(in) :: law !! by which it is weighted
+    type(vibration_equations_type), intent(inout) :: equations !! with the steady ones
+    Mat, intent(out) :: matrix !! of the list, like the steady one, without values
     PetscErrorCode :: ierr
 
-    PetscCallA(MatAXPY(equations%real_part, real(factor, wp), matrix, SAME_NONZERO_PATTERN, ierr))
-    PetscCallA(MatAXPY(equations%imaginary_part, aimag(factor), matrix, SAME_NONZERO_PATTERN, ierr))
-  end subroutine add_multiple
+    PetscCallA(MatDuplicate(equations%steady, MAT_DO_NOT_COPY_VALUES, matrix, ierr))
+    if (.not. allocated(equations%part)) allocate (equations%part(0))
+    equations%part = [equations%part, vibration_part_type(law, matrix)]
+  end subroutine add_part
+
+  !> The derivative of all parts by \( \lambda \) at rest: of equations that are linear in it, that anywhere.
+  subroutine rate_at_rest(equations, matrix)
+    type(vibration_equations_type), intent(in) :: equations !! complete ones
+    Mat, intent(out) :: matrix !! like the steady one
+    type(weights_type) :: rates
+    PetscErrorCode :: ierr
+    integer :: k
+
+    rates = weight_rates_at(equations%vibration, cmplx(0.0_wp, 0.0_wp, wp))
+    PetscCallA(MatDuplicate(equations%steady, MAT_DO_NOT_COPY_VALUES, matrix, ierr))
+    do k = 1, size(equations%part)
+      PetscCallA(MatAXPY(matrix, real(rates%of_law(equations%part(k)%law), wp), equations%part(k)%matrix, SAME_NONZERO_PATTERN, ierr))
+    end do
+  end subroutine rate_at_rest
 
   !> Frees what PETSc holds.
   subroutine destroy_equations(equations)
     type(vibration_equations_type), intent(inout) :: equations !! complete ones
     PetscErrorCode :: ierr
+    integer :: k
 
     PetscCallA(MatDestroy(equations%steady, ierr))
-    PetscCallA(MatDestroy(equations%squeeze, ierr))
+    do k = 1, size(equations%part)
+      PetscCallA(MatDestroy(equations%part(k)%matrix, ierr))
+    end do
+    deallocate (equations%part)
     PetscCallA(MatDestroy(equations%real_part, ierr))
     PetscCallA(MatDestroy(equations%imaginary_part, ierr))
     call destroy_inertia(equations%inertia)
-    if (.not. dissipates(equations)) return
-    if (equations%local_springs) then
-      PetscCallA(MatDestroy(equations%flow_by_gap, ierr))
-      PetscCallA(MatDestroy(equations%squeeze_by_gap, ierr))
-    else
-      PetscCallA(MatDestroy(equations%springs, ierr))
-    end if
   end subroutine destroy_equations
 end module gfb_vibration_equations

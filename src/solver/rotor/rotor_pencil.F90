@@ -31,7 +31,7 @@ module gfb_rotor_pencil
   use gfb_petsc_kinds, only: pint
   use gfb_film_surface, only: journal_motions
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, find_sample, take_over_counts, forces_of
-  use gfb_vibration_equations, only: vibration_equations_type, dissipates
+  use gfb_vibration_equations, only: vibration_equations_type, dissipates, rate_at_rest
   use gfb_pencil_share, only: rotor_scale_type, share_type, take_rotor, put_rotor, entries_of, solve_film, add_momentum, &
        put_rates, take_film, put_film, energies_of, energy_unit, start_film, weigh_foil
   implicit none (type)
@@ -186,10 +186,7 @@ contains
     if (share%has_mass) share%mass = response%equations%inertia%mass
     PetscCallA(VecDuplicate(bearing%state, share%work, ierr))
     call weigh_foil(share)
-    PetscCallA(MatDuplicate(response%equations%squeeze, MAT_COPY_VALUES, share%rate, ierr))
-    if (dissipates(response%equations)) then
-      PetscCallA(MatAXPY(share%rate, response%equations%vibration%damping_time, response%equations%springs, SAME_NONZERO_PATTERN, ierr))
-    end if
+    call rate_at_rest(response%equations, share%rate)
     do i = 1, planar
       PetscCallA(VecDuplicate(bearing%state, share%column(i), ierr))
       PetscCallA(VecSet(response%one, 0.0_wp, ierr))
