@@ -294,6 +294,9 @@ contains
   end subroutine build_on_mesh
 
   !> Heat, as the scene has it.
+  !>
+  !> The group itself is not passed: a third of these numbers are products of it with gas or geometry, and equations of heat are asked,
+  !> and tested, without a scene.
   pure function heat_of(scene) result(heat)
     type(scene_type), intent(in) :: scene !! with heat
     type(film_heat_type) :: heat !! its unknowns are not numbered

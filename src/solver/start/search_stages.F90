@@ -3,6 +3,9 @@
 !>
 !> Each begins from the answer without it and ends at that with it. They are gone through on the coarsest mesh; a finer one takes
 !> the answer with all of them from it, or what it refuses.
+!>
+!> Asperities are no stage: a shaft at rest has no answer without them from which one could begin. The equations have them from the
+!> first start on, which puts such a shaft where they bear its load (`gfb_start_position`).
 module gfb_search_stages
   use gfb_kinds, only: wp
   use gfb_units, only: micrometres
