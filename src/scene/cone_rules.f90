@@ -20,7 +20,7 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     integer :: point
 
-    if (.not. scene%bearing%is_cone()) return
+    if (.not. scene%bearing%half_angle > 0.0_wp) return
     call keys%rule('model', 'foil', scene%model%foil%has_top_foil, "must be 'rigid' or "// &
                    "'elastic_foundation' with "// &
                    'half_angle in &bearing: a foil on a cone is no plane when it is unrolled')

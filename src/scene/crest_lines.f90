@@ -9,7 +9,8 @@
 !> with l half the chord at the mean radius. Source: [WalowitAnno1975], times the pitch.
 module gfb_crest_lines
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, strip_ends
+  use gfb_bearing_case, only: bearing_case_type, surface_of, pad_angle, strip_ends
+  use gfb_film_surface, only: film_surface_type
   use gfb_foil_cases, only: bump_foil_case_type, one_strip, fixed_edge_trailing
   use gfb_scene, only: scene_type
   use gfb_strip_load_case, only: bump_stiffness
@@ -41,21 +42,22 @@ contains
     type(crest_line_type) :: one
     type(bump_foil_case_type) :: foil
     real(wp), allocatable :: angle(:)
+    type(film_surface_type) :: surface
     integer :: strip, i
 
     allocate (lines(0))
+    surface = surface_of(scene%bearing)
     associate (bearing => scene%bearing)
       do strip = 1, scene%bump_foil%strips
         foil = one_strip(scene%bump_foil, strip)
         one%strip = strip
         one%ends = strip_ends(bearing, scene%bump_foil%strips, scene%bump_foil%cut_width, strip)
-        one%mean_radius = bearing%radius
-        if (bearing%is_thrust()) one%mean_radius = 0.5_wp*sum(one%ends)
+        one%mean_radius = surface%radius_at(0.5_wp*sum(one%ends))
         one%stiffness = scene%model%crest_stiffness
         one%exponent = 0.0_wp
         if (.not. one%stiffness > 0.0_wp) then
           one%stiffness = bump_stiffness(foil)*foil%pitch%value
-          if (bearing%is_thrust()) one%exponent = curved_strip_exponent
+          if (bearing%row%has_sectors) one%exponent = curved_strip_exponent
         end if
         angle = crests_on_pad(bearing, foil, one%mean_radius)
         do i = 1, size(angle)
@@ -82,7 +84,7 @@ contains
     arc = pad_angle(bearing)
     first = foil%offset%value + foil%half_length%value
     if (.not. foil%half_length%value > 0.0_wp) first = foil%offset%value + 0.5_wp*foil%pitch%value
-    if (bearing%is_thrust()) first = first + bearing%ramp_part*arc*radius
+    first = first + bearing%ramp_part*arc*radius
     bumps = foil%bumps
     if (bumps == 0) then
       associate (room => arc*radius - first - foil%half_length%value)
@@ -91,7 +93,7 @@ contains
       end associate
     end if
     angle = [((first + real(i, wp)*foil%pitch%value)/radius, i=0, bumps - 1)]
-    if (bearing%is_thrust() .or. foil%fixed_edge /= fixed_edge_trailing) return
+    if (bearing%row%has_sectors .or. foil%fixed_edge /= fixed_edge_trailing) return
     angle = arc - angle(bumps:1:-1)
   end function crests_on_pad
 

@@ -80,7 +80,7 @@ contains
           return
         end if
         last = lines(n)%angle + foil%half_length%value/lines(n)%mean_radius
-        if (bearing%is_thrust() .and. last > pad_angle(bearing)*(1.0_wp + rounding)) then
+        if (bearing%row%has_sectors .and. last > pad_angle(bearing)*(1.0_wp + rounding)) then
           call keys%complain(bumps, 'bumps', text(foil%bumps)//' bumps of the pitch '// &
                              text(foil%pitch%value)//' m end at '//text(last*degrees, 4)// &
                              ' deg, past the edge of the pad at '// &

@@ -3,7 +3,7 @@
 module gfb_plausible_values
   use gfb_kinds, only: wp
   use gfb_units, only: degree, rpm
-  use gfb_bearing_case, only: pad_angle
+  use gfb_bearing_case, only: pad_area
   use gfb_operation_case, only: angular_speed
   use gfb_case_keys, only: case_keys_type, longest_list
   use gfb_namelist_file, only: find_elements
@@ -338,10 +338,8 @@ contains
     real(wp) :: carried, loads !! [N] by a film of p_a, at most; asked for
 
     associate (bearing => scene%bearing)
-      carried = scene%gas%ambient_pressure*2.0_wp*bearing%radius*bearing%length
-      if (bearing%is_thrust()) then
-        carried = scene%gas%ambient_pressure*0.5_wp*real(bearing%pads, wp)*pad_angle(bearing)* &
-                  (bearing%radius**2 - bearing%inner_radius**2)
+      carried = scene%gas%ambient_pressure*pad_area(bearing)
+      if (.not. bearing%row%moves_across) then
         if (carried > 0.0_wp .and. scene%operation%axial_load > most_carried*carried) then
           call keys%warn('operation', 'axial_load', 'is '//text(scene%operation%axial_load/ &
                          carried, 3)//' p_a times the area of the pads; gas films carry some '// &

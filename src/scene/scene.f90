@@ -92,7 +92,7 @@ contains
       if (analysis%finds_modes) misplaced = unless(any(part == [0, part_top_foil]), &
         "needs part = 'top_foil' in &modes: no other part has a pad")
       call read_bearing_case(keys, scene%bearing, needs%pad, needs%film, misplaced)
-      call read_model_case(keys, scene%model, scene%bearing%is_thrust(), analysis)
+      call read_model_case(keys, scene%model, scene%bearing%row, analysis)
       needs = needs_of(analysis, part, scene%model%foil)
       call read_pads_case(keys, scene%bearing, analysis%refusal('pads'))
       call read_ramp_case(keys, scene%bearing, analysis%refusal('ramp'))
@@ -101,12 +101,12 @@ contains
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, scene%bearing, state, &
                                scene%shaft_contact%present)
-      if (scene%bearing%is_thrust()) then
+      if (scene%bearing%row%has_sectors) then
         scene%bearing%clearance = size_of_gap(scene%bearing, scene%operation, &
                                               scene%gas%viscosity, scene%gas%ambient_pressure)
       end if
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
-      call read_rotor_case(keys, scene%rotor, scene%bearing%is_thrust(), analysis)
+      call read_rotor_case(keys, scene%rotor, scene%bearing%row, analysis)
       call read_transient_case(keys, scene%transient, scene%operation, analysis)
       call read_periodic_case(keys, scene%periodic, analysis)
       call read_unbalance_case(keys, scene%unbalance, analysis)
@@ -114,14 +114,13 @@ contains
       call read_capacity_case(keys, scene%capacity, analysis)
       scene%operation%tilt_is_sought = analysis%limit == limit_tilt
       ! A mass that whirls moves across the axis, and across it alone.
-      scene%dynamics%stability = scene%dynamics%stability .and. .not. &
-        (scene%bearing%is_thrust() .or. scene%bearing%is_cone())
+      scene%dynamics%stability = scene%dynamics%stability .and. .not. scene%bearing%row%moves_along
       call read_sweep_case(keys, scene%sweep, analysis)
-      call read_top_foil_case(keys, scene%top_foil, scene%bearing%is_thrust(), needs, &
+      call read_top_foil_case(keys, scene%top_foil, scene%bearing%row, needs, &
                               scene%model%foil)
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
       call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, &
-                             scene%bearing%is_thrust(), analysis)
+                             scene%bearing%row, analysis)
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)

@@ -2,10 +2,10 @@
 module gfb_scene_rules
   use gfb_kinds, only: wp
   use gfb_units, only: turn
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, preload_angle, &
-                              leading_edge_periodic
+  use gfb_bearing_case, only: bearing_case_type, surface_of, pad_angle, pad_turn, &
+                              preload_angle, leading_edge_periodic
   use gfb_case_keys, only: case_keys_type
-  use gfb_film_surface, only: film_surface_type, cone
+  use gfb_film_surface, only: film_surface_type
   use gfb_study_rules, only: check_sweep, check_edge_lift, check_accuracy, check_capacity, &
                              is_unloaded
   use gfb_count_rules, only: check_counts
@@ -314,8 +314,8 @@ contains
   !> Whether one half mirrors the other: no point is tilted, and heat leaves both ends alike.
   pure logical function is_symmetric(scene) result(symmetric)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    symmetric = .not. (tilts(scene%operation, scene%sweep) .or. scene%bearing%is_cone()) .and. &
-      heat_mirrors(scene)
+    symmetric = .not. (scene%bearing%row%ends_differ .or. &
+                       tilts(scene%operation, scene%sweep)) .and. heat_mirrors(scene)
   end function is_symmetric
 
   !> Whether heat leaves both halves of the width alike, at every point of the scene.
@@ -327,10 +327,10 @@ contains
     mirrors = mirrors .and. index(scene%sweep%keys, 'cooling_flow') == 0
   end function heat_mirrors
 
-  !> Whether one pad of a thrust bearing stands for all: they are equal, and no point is tilted.
+  !> Whether one pad stands for all: they are equal, and the shaft neither moves across nor tilts.
   pure logical function solves_one_pad(scene) result(one)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    one = scene%bearing%is_thrust() .and. .not. (scene%operation%moment_given .or. &
+    one = .not. (scene%bearing%row%moves_across .or. scene%operation%moment_given .or. &
       tilts(scene%operation, scene%sweep) .or. scene%bump_foil%random%deviation > 0.0_wp .or. &
       scene%bore%present)
   end function solves_one_pad
@@ -353,7 +353,7 @@ contains
     integer :: point
 
     associate (bearing => scene%bearing, sweep => scene%sweep)
-      if (scene%model%foil%deflects .or. bearing%is_thrust()) return
+      if (scene%model%foil%deflects .or. .not. bearing%row%moves_across) return
       if (.not. (bearing%clearance > 0.0_wp .and. bearing%length > 0.0_wp)) return
       if (.not. sweep%present .or. sweep%parameter < sweep_tilt_x .or. &
           sweep%parameter == sweep_keys) then
@@ -399,7 +399,7 @@ contains
     real(wp) :: e(2), tilted(2)
     integer :: pad, end
 
-    surface = cone(bearing%radius, bearing%half_angle, 0.0_wp)
+    surface = surface_of(bearing)
     approach = -huge(approach)
     do pad = 1, bearing%pads
       e = operation%eccentricity

@@ -1,8 +1,8 @@
 !> What a thrust bearing asks of the scene.
 module gfb_thrust_rules
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, bore_case_type, pad_angle, pad_turn, strip_ends, &
-                              needs_journal, needs_thrust
+  use gfb_bearing_case, only: bearing_case_type, bore_case_type, pad_angle, pad_turn, strip_ends
+  use gfb_bearing_row, only: needs_journal, needs_thrust
   use gfb_case_keys, only: case_keys_type
   use gfb_foil_cases, only: bump_foil_case_type, one_strip
   use gfb_gap_shape, only: gap_shape_item_type, height_of
@@ -30,10 +30,10 @@ contains
                asked => scene%sensitivity%quantity, &
                before => size(scene%sensitivity%quantity) - quantities_of_whirl &
                - quantities_of_rings)
-      if (.not. scene%bearing%is_thrust()) then
+      if (.not. scene%bearing%row%has_sectors) then
         call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_gap .or. &
-                       sweep%parameter == sweep_axial_load .and. .not. scene%bearing%is_cone(), &
-                       needs_thrust)
+                       sweep%parameter == sweep_axial_load .and. &
+                       .not. scene%bearing%row%moves_along, needs_thrust)
         call keys%rule('sensitivity', 'quantity', any(asked(before + 1:before + &
                        quantities_of_rings)), 'names a result of thrust bearings: '//needs_thrust)
         return

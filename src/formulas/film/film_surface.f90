@@ -43,7 +43,7 @@ module gfb_film_surface
     real(wp) :: facing = 1.0_wp !! -1: on the runner's other side
   contains
     procedure :: is_ring, motions, radius_at, stretch, lever, tilt_arm, position, motion
-    procedure :: point_motions, motion_excess, gap
+    procedure :: point_motions, motion_excess, rest_gap, gap
   end type film_surface_type
 
 contains
@@ -186,6 +186,13 @@ contains
       excess(:, i) = excess(:, i) - matmul(nodal, shapes(:, i))
     end do
   end function motion_excess
+
+  !> Gap of a shaft that is not moved: a runner's gap is its place.
+  elemental real(wp) function rest_gap(self, clearance) result(h)
+    class(film_surface_type), intent(in) :: self !! the surface
+    real(wp), intent(in) :: clearance !! C, or the size of a runner's gap [m]
+    h = merge(0.0_wp, clearance, self%is_ring())
+  end function rest_gap
 
   !> Gap of the rigid sleeve, without a foil's deflection, where cosine and sine of the angle are
   !> known.

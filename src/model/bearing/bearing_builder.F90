@@ -9,10 +9,9 @@ module gfb_bearing_builder
   use gfb_errors, only: error_type, add_context
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: solves_one_pad
-  use gfb_bearing_case, only: pad_angle, pad_turn, preload_angle, leading_edge_periodic
+  use gfb_bearing_case, only: surface_of, pad_angle, pad_turn, preload_angle, leading_edge_periodic
   use gfb_foil_row, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, foil_plate
   use gfb_model_case, only: reduction_guyan
-  use gfb_film_surface, only: cone
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh, cell_nodes
   use gfb_crest_lines, only: plate_sides
   use gfb_foil_builder, only: plate_stations, stations_follow_crests, sector_sides, shape_on_pad, gaps_beside, strip_on_pad, &
@@ -466,7 +465,7 @@ contains
     associate (bearing => scene%bearing)
       call find_shapes(bearing, scene%bore, bearing%leading_edge_angle, 1.0_wp, shape)
       allocate (kink(0))
-      if (bearing%is_thrust()) then
+      if (bearing%row%has_sectors) then
         do i = 1, size(shape)
           if (shape(i)%shape%of_each_pad) kink = [kink, kinks_of(shape(i:i), bearing%leading_edge_angle)]
         end do
@@ -491,8 +490,8 @@ contains
       end if
       if (scene%model%foil%has_crest_springs) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
     end associate
+    mesh%surface = surface_of(scene%bearing)
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
-    if (scene%bearing%is_cone()) mesh%surface = cone(scene%bearing%radius, scene%bearing%half_angle, mesh%surface%offset)
 
   contains
 

@@ -416,7 +416,7 @@ contains
     integer :: i
 
     eccentricity = shift_of(self%part, point%place(:2))
-    clearance = merge(0.0_wp, self%clearance, self%surface%is_ring()) ! a runner's gap is its place
+    clearance = self%surface%rest_gap(self%clearance)
     gap = deflection + self%surface%gap(self%direction(1, :), self%direction(2, :), self%axial, &
                                         level_of(self%part, clearance), &
                                         eccentricity(1), eccentricity(2), point%place(3), &

@@ -6,7 +6,7 @@ module gfb_foil_builder
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
-  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle, strip_ends, middle_radius
+  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle, pad_rows, strip_ends, middle_radius
   use gfb_top_foil_case, only: top_foil_leading
   use gfb_foil_cases, only: bump_foil_case_type, fixed_edge_trailing, one_strip, strips_differ, &
                             strip_curved, strip_straight
@@ -84,7 +84,7 @@ contains
   !> Whether the stations are those of `plate_stations`, counted from crest to crest; of a sector they are moved to the crests.
   pure logical function stations_follow_crests(scene) result(follow)
     type(scene_type), intent(in) :: scene !! what the case file asks for
-    follow = scene%mesh%align_crests .and. .not. scene%bearing%is_thrust()
+    follow = scene%mesh%align_crests .and. .not. scene%bearing%row%has_sectors
   end function stations_follow_crests
 
   !> Elements from crest to crest where stations lie above the crests.
@@ -146,7 +146,7 @@ contains
     type(strip_shape_type) :: shape
 
     shape = strip_shape(scene)
-    if (scene%bearing%is_thrust()) then
+    if (scene%bearing%row%has_sectors) then
       call lay_on_sector(scene%bearing, scene%bump_foil, middle_radius(scene%bearing), shape)
       return
     end if
@@ -187,7 +187,7 @@ contains
   !> Whether strips side by side have meshes of their own: under a sector each repeats at its own mean radius.
   pure logical function strips_are_own(scene) result(own)
     type(scene_type), intent(in) :: scene
-    own = strips_differ(scene%bump_foil) .or. (scene%bearing%is_thrust() .and. scene%bump_foil%strips > 1)
+    own = strips_differ(scene%bump_foil) .or. (scene%bearing%row%has_sectors .and. scene%bump_foil%strips > 1)
   end function strips_are_own
 
   !> Shape of a scene's strip, its leading end at x = 0; of strips that differ their mean.
@@ -208,7 +208,7 @@ contains
 
     one = one_strip(scene%bump_foil, strip)
     shape = shape_of(scene, one)
-    if (scene%bearing%is_thrust()) then
+    if (scene%bearing%row%has_sectors) then
       ends = strip_ends(scene%bearing, scene%bump_foil%strips, scene%bump_foil%cut_width, strip)
       call lay_on_sector(scene%bearing, one, 0.5_wp*sum(ends), shape)
       return
@@ -283,9 +283,7 @@ contains
   !> Where the middle of the width is: z = 0, or the mean radius of a sector [m].
   pure real(wp) function middle_row(scene)
     type(scene_type), intent(in) :: scene
-
-    middle_row = 0.0_wp
-    if (scene%bearing%is_thrust()) middle_row = middle_radius(scene%bearing)
+    middle_row = 0.5_wp*sum(pad_rows(scene%bearing))
   end function middle_row
 
   !> Kinds of a bump foil's pieces: equal ones are equal on every strip.

@@ -6,22 +6,18 @@ module gfb_bearing_case
   use gfb_case_keys, only: case_keys_type, no_default, at_least, from_below, from_to, positive, &
                            longest_list, any_value, not_negative, rule_type, unless
   use gfb_text, only: text
+  use gfb_bearing_row, only: bearing_row_type, bearing_rows, bearing_words, bearing_unknown, &
+                             bearing_journal, bearing_cone, needs_journal
   use gfb_bore_profile, only: bore_profile_type
+  use gfb_film_surface, only: film_surface_type, cone, ring
   use gfb_ramp_shape, only: ramp_shape_type, ramp_shape
   use gfb_key_effect, only: acts_on_film, acts_on_all
   implicit none (type, external)
   private
   public :: bearing_case_type, bore_case_type, read_bearing_case, read_pads_case, read_bore_case
   public :: read_ramp_case, ramp_of
-  public :: pad_angle, pad_length, strip_length, strip_ends, middle_radius, pad_turn, preload_angle
-
-  integer, parameter, public :: kind_journal = 1 !! a cylinder around the shaft
-  integer, parameter, public :: kind_thrust = 2  !! sectors of a ring, a runner above them
-  character(len=*), parameter :: kind_words(*) = [character(len=7) :: 'journal', 'thrust']
-  character(len=*), parameter, public :: needs_journal = "has no use with kind = 'thrust' in "// &
-                                                         '&bearing'
-  character(len=*), parameter, public :: needs_thrust = "needs kind = 'thrust' in &bearing"
-  character(len=*), parameter, public :: needs_cone = 'needs half_angle in &bearing'
+  public :: surface_of, pad_area, pad_rows, pad_angle, pad_length, strip_length, strip_ends
+  public :: middle_radius, pad_turn, preload_angle
 
   integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
   integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
@@ -33,7 +29,7 @@ module gfb_bearing_case
 
   !> The pad.
   type :: bearing_case_type
-    integer :: kind = kind_journal           !! 0 where it is misspelt
+    type(bearing_row_type) :: row = bearing_journal !! its kind
     real(wp) :: radius = 0.0_wp              !! of the shaft; outer one of a ring [m]
     real(wp) :: inner_radius = 0.0_wp        !! of a ring [m]
     real(wp) :: play = 0.0_wp                !! between two rings; 0: there is one [m]
@@ -51,7 +47,7 @@ module gfb_bearing_case
     real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
     real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
   contains
-    procedure :: is_thrust, is_cone, all_pads
+    procedure :: all_pads
   end type bearing_case_type
 
   !> The bore.
@@ -72,15 +68,19 @@ contains
 
     character(len=:), allocatable :: journal, thrust !! why keys of the kind have no use
     logical :: ring
+    integer :: kind !! its number, 0 where it is not known
 
     call keys%start_group('bearing', required=needed, optional=.not. needed, &
                           misplaced=misplaced, acts_on=acts_on_all)
-    call keys%choice_key('kind', bearing%kind, kind_words, 'a cylinder around the shaft, or '// &
-                         'pads in a plane across the axis with a runner above them', &
+    kind = bearing%row%number
+    call keys%choice_key('kind', kind, bearing_rows(:bearing_words)%word, 'a cylinder around '// &
+                         'the shaft, or pads in a plane across the axis with a runner above them', &
                          useless=unless(with_film .or. .not. needed, 'has no use without a film'))
-    ring = bearing%is_thrust()
-    journal = unless(.not. ring, needs_journal)
-    thrust = unless(bearing%kind /= kind_journal, needs_thrust)
+    bearing%row = bearing_unknown
+    if (kind > 0) bearing%row = bearing_rows(kind)
+    ring = bearing%row%has_sectors
+    journal = trim(bearing%row%journal_keys)
+    thrust = trim(bearing%row%thrust_keys)
     call keys%real_key('radius', bearing%radius, 'm', 'radius of the shaft; of a cone in the '// &
                        'middle of its length', positive, needed .and. .not. ring, useless=journal)
     call keys%real_key('length', bearing%length, 'm', 'length along the axis; of a cone along '// &
@@ -90,7 +90,10 @@ contains
                        from_below(0.0_wp, 0.5_wp*pi), default='0: a cylinder', &
                        useless=unless(with_film .or. .not. needed, 'has no use without a film'))
     call keys%refuse('bearing', 'half_angle', ring, needs_journal)
-    call keys%rule('bearing', 'half_angle', bearing%is_cone() .and. bearing%radius > 0.0_wp .and. &
+    if (kind == bearing_journal%number .and. bearing%half_angle > 0.0_wp) then
+      bearing%row = bearing_cone
+    end if
+    call keys%rule('bearing', 'half_angle', min(bearing%half_angle, bearing%radius) > 0.0_wp .and. &
                    0.5_wp*bearing%length*sin(bearing%half_angle) >= bearing%radius, &
                    'must leave a radius at the narrow end: half of length times its sine is '// &
                    text(0.5_wp*bearing%length*sin(bearing%half_angle), 4)//' m')
@@ -127,18 +130,6 @@ contains
                    "= 'periodic', a full ring")
   end subroutine read_bearing_case
 
-  !> Whether the pads are sectors of a ring.
-  elemental logical function is_thrust(self) result(thrust)
-    class(bearing_case_type), intent(in) :: self !! what `&bearing` asks for
-    thrust = self%kind == kind_thrust
-  end function is_thrust
-
-  !> Whether the film lies on a cone.
-  elemental logical function is_cone(self) result(cone)
-    class(bearing_case_type), intent(in) :: self !! what `&bearing` asks for
-    cone = self%half_angle > 0.0_wp
-  end function is_cone
-
   !> Pads on all sides of the runner, or around the shaft.
   elemental integer function all_pads(self) result(pads)
     class(bearing_case_type), intent(in) :: self !! what `&bearing` and `&pads` ask for
@@ -154,6 +145,32 @@ contains
     ramp = ramp_shape(leading_edge, bearing%ramp_part*pad_angle(bearing), bearing%ramp_height, &
                       merge(bearing%play, 0.0_wp, facing < 0.0_wp))
   end function ramp_of
+
+  !> The surface that its film lies on.
+  pure type(film_surface_type) function surface_of(bearing) result(surface)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+
+    surface = cone(bearing%radius, bearing%half_angle, 0.0_wp)
+    if (bearing%row%has_sectors) surface = ring(bearing%radius)
+  end function surface_of
+
+  !> Area of the pads of one side as the load sees it: D L, or that of the sectors [m^2].
+  elemental real(wp) function pad_area(bearing) result(area)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` and `&pads` ask for
+
+    area = 2.0_wp*bearing%radius*bearing%length
+    if (bearing%row%has_sectors) area = 0.5_wp*real(bearing%pads, wp)*pad_angle(bearing)* &
+                                        (bearing%radius**2 - bearing%inner_radius**2)
+  end function pad_area
+
+  !> First and last row of a pad: s, as `gfb_film_surface` has it [m].
+  pure function pad_rows(bearing) result(ends)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    real(wp) :: ends(2)
+
+    ends = 0.5_wp*bearing%length*[-1.0_wp, 1.0_wp]
+    if (bearing%row%has_sectors) ends = [bearing%inner_radius, bearing%radius]
+  end function pad_rows
 
   !> Angle that the pad covers [rad].
   elemental real(wp) function pad_angle(bearing) result(angle)
@@ -187,15 +204,16 @@ contains
   elemental real(wp) function strip_length(bearing) result(length)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
 
-    length = pad_length(bearing)
-    if (bearing%is_thrust()) length = middle_radius(bearing)*pad_angle(bearing)* &
-                                      (1.0_wp - bearing%ramp_part)
+    length = middle_radius(bearing)*pad_angle(bearing)*(1.0_wp - bearing%ramp_part)
   end function strip_length
 
-  !> Mean of a sector's inner and outer radius [m].
+  !> Radius in the middle of the pad's width [m].
   elemental real(wp) function middle_radius(bearing) result(radius)
-    type(bearing_case_type), intent(in) :: bearing !! of thrust
-    radius = 0.5_wp*(bearing%inner_radius + bearing%radius)
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
+    type(film_surface_type) :: surface
+
+    surface = surface_of(bearing)
+    radius = surface%radius_at(0.5_wp*sum(pad_rows(bearing)))
   end function middle_radius
 
   !> Where one of equal strips side by side ends along the rows of a pad: z, or the radius of a
@@ -206,11 +224,11 @@ contains
     real(wp), intent(in) :: cut !! between two of them [m]
     integer, intent(in) :: strip !! its number, from the smallest z on
     real(wp) :: ends(2)
-    real(wp) :: from, width
+    real(wp) :: rows(2), width
 
-    from = merge(bearing%inner_radius, -0.5_wp*bearing%length, bearing%is_thrust())
+    rows = pad_rows(bearing)
     width = (bearing%length - real(strips - 1, wp)*cut)/real(strips, wp)
-    ends = from + real(strip - 1, wp)*(width + cut) + [0.0_wp, width]
+    ends = rows(1) + real(strip - 1, wp)*(width + cut) + [0.0_wp, width]
   end function strip_ends
 
   !> Reads `&pads` into the bearing; without it the bearing has the one pad of `&bearing`.
@@ -235,12 +253,12 @@ contains
                        default='2 pi/count less arc')
     call keys%real_key('preload', bearing%preload, '1', 'shift of a pad''s centre of curvature '// &
                        'towards the shaft, over the clearance', from_below(0.0_wp, 1.0_wp), &
-                       useless=unless(.not. bearing%is_thrust(), needs_journal), &
+                       useless=trim(bearing%row%journal_keys), &
                        acts_on=acts_on_film)
     call keys%real_key('preload_offset', bearing%preload_offset, '1', 'where on the pad the '// &
                        'preload narrows the gap most: part of the arc from the leading edge', &
                        from_to(0.0_wp, 1.0_wp), &
-                       useless=unless(.not. bearing%is_thrust(), needs_journal), &
+                       useless=trim(bearing%row%journal_keys), &
                        acts_on=acts_on_film)
     call keys%rule(pads_group, 'count', bearing%play > 0.0_wp .and. 2*bearing%pads > most_pads, &
                    'must be '//text(most_pads/2)//' or less with axial_play in &bearing: both '// &
@@ -303,7 +321,7 @@ contains
     logical :: present_in_file
 
     why = misplaced
-    if (why == '') why = unless(bearing%kind /= kind_journal, needs_thrust)
+    if (why == '') why = trim(bearing%row%thrust_keys)
     call keys%start_group(ramp_group, optional=.true., present_in_file=present_in_file, &
                           misplaced=why, acts_on=acts_on_all)
     call keys%idle(unless(present_in_file, 'the file has no group &ramp'))

@@ -7,7 +7,7 @@ module gfb_foil_cases
   use gfb_scene_case, only: needs_type
   use gfb_text, only: text, join
   use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends, &
-                              middle_radius, needs_thrust
+                              middle_radius
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner, fixed_line_half_flat
   use gfb_key_effect, only: acts_on_gaps, acts_on_sheets, acts_on_shapes, acts_on_all
@@ -341,7 +341,7 @@ contains
     if (foil%fixed_line /= fixed_line_half_flat) call keys%act_on('half_length', acts_on_all)
     call keys%choice_key('strip_form', foil%strip_form, form_words, 'under a sector crests are '// &
                          "rays, or parallel to the ray in the pad's middle", &
-                         useless=unless(bearing%is_thrust(), needs_thrust))
+                         useless=trim(bearing%row%thrust_keys))
     call bump_list_key(keys, 'crest_gap', foil%crest_gap, foil%bumps, 'gap at rest '// &
                        'between a bump''s crest and the top foil or plate', not_negative, &
                        '0: all crests touch', acts_on_gaps)
@@ -407,11 +407,11 @@ contains
     call foil%half_length%read_by_strip(keys, foil%strips, positive, useless)
     call foil%height%read_by_strip(keys, foil%strips, positive, useless)
     call foil%thickness%read_by_strip(keys, foil%strips, positive, useless)
-    if (bearing%is_thrust()) useless = '' ! a single strip may begin behind the ramp
+    if (bearing%row%has_sectors) useless = '' ! a single strip may begin behind the ramp
     call foil%offset%read_by_strip(keys, foil%strips, not_negative, useless, &
                                    '0: strips begin at the edge of the pad, or its ramp''s end')
     if (.not. right) return
-    if (bearing%is_thrust() .and. foil%strips > 1 .and. foil%bumps > 0 .and. &
+    if (bearing%row%has_sectors .and. foil%strips > 1 .and. foil%bumps > 0 .and. &
         .not. (keys%holds(group, 'pitch') .or. keys%holds(group, 'strip_pitch') .or. &
                allocated(foil%pitch%by_bump))) then
       foil%pitch%by_strip = [(0.5_wp*sum(strip_ends(bearing, foil%strips, foil%cut_width, i)), &

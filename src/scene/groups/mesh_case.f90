@@ -1,8 +1,8 @@
 !> `&mesh`, the number of elements, and `&solver`, tolerances and limits of the solution.
 module gfb_mesh_case
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_angle, middle_radius, kind_journal, &
-                              needs_journal, needs_thrust
+  use gfb_bearing_case, only: bearing_case_type, pad_angle, middle_radius
+  use gfb_bearing_row, only: bearing_journal, needs_journal
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type, strip_straight
@@ -44,14 +44,11 @@ module gfb_mesh_case
   end type solver_case_type
 
   integer, parameter :: elements_a_pitch = 8    !! resolves the sag between crests to about 5 %
-  integer, parameter :: elements_around = 240   !! of a pad without bumps
-  integer, parameter :: elements_of_sector = 64 !! of such a pad of a thrust bearing
-  real(wp), parameter :: ring_refinement = 9.0_wp !! towards the edges of such a pad [1]
   integer, parameter, public :: most_a_side = 100000
 
   !> Number of elements.
   type :: mesh_case_type
-    integer :: circumferential_elements = elements_around
+    integer :: circumferential_elements = bearing_journal%elements
     integer :: axial_elements = 32 !! of the whole width, also where one half is solved
     !> width of the elements in the middle over that at the edges of the width [1]
     real(wp) :: edge_refinement = 1.0_wp
@@ -129,7 +126,7 @@ contains
     ! As many nodes, whatever the order of the film's elements.
     mesh%circumferential_elements = elements_along_pad(bearing, foil, model)/model%film_order
     mesh%axial_elements = mesh%axial_elements/model%film_order
-    if (bearing%is_thrust()) mesh%edge_refinement = ring_refinement
+    mesh%edge_refinement = bearing%row%edge_refinement
     call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
                           'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
                           default='8 a pitch with bumps, otherwise 240, of a thrust '// &
@@ -142,13 +139,13 @@ contains
                           'elements of the whole width, also where one half is solved; by '// &
                           'default 16 with `film_order = 2`', &
                           from_to(2.0_wp, real(most_a_side, wp)), &
-                          useless=unless(.not. bearing%is_thrust(), needs_journal//': '// &
+                          useless=unless(bearing%row%journal_keys == '', needs_journal//': '// &
                                          'radial_elements stands for it'))
     call keys%integer_key('radial_elements', mesh%axial_elements, 'elements from the inner to '// &
                           'the outer radius of a thrust bearing', &
                           from_to(2.0_wp, real(most_a_side, wp)), default='32; 16 with '// &
                           '`film_order = 2`', &
-                          useless=unless(bearing%kind /= kind_journal, needs_thrust))
+                          useless=trim(bearing%row%thrust_keys))
     call keys%real_key('edge_refinement', mesh%edge_refinement, '1', 'width of the elements '// &
                        'in the middle over that at the edges of the width: narrow ones where '// &
                        'the pressure falls; 1: equal ones, as strips side by side '// &
@@ -178,8 +175,7 @@ contains
     type(model_case_type), intent(in) :: model !! what `&model` asks for
 
     radius = bearing%radius
-    if (.not. (bearing%is_thrust() .and. model%foil%has_top_foil)) return
-    radius = middle_radius(bearing)
+    if (model%foil%has_top_foil) radius = middle_radius(bearing)
   end function foil_radius
 
   !> Elements along the pad where the case does not say: whole pitches that cover it.
@@ -190,8 +186,7 @@ contains
     real(wp), parameter :: rounding = 1.0e-9_wp !! whole pitches are not rounded up, relative
     real(wp) :: pitches
 
-    elements = elements_around
-    if (bearing%is_thrust()) elements = elements_of_sector
+    elements = bearing%row%elements
     if (.not. bearing%radius > 0.0_wp) return
     if (foil%pitch%value > 0.0_wp) then
       pitches = pad_angle(bearing)*foil_radius(bearing, model)/foil%pitch%value*(1.0_wp - rounding)
@@ -205,8 +200,6 @@ contains
     end if
     elements = elements_a_pitch*ceiling(min(pitches, real(most_a_side, wp)))
     if (foil%strip_form == strip_straight) elements = 2*elements ! crests cross them
-    if (bearing%is_thrust() .and. model%foil%has_top_foil) then
-      elements = max(elements, elements_of_sector)
-    end if
+    if (model%foil%has_top_foil) elements = max(elements, bearing%row%fewest_elements)
   end function elements_along_pad
 end module gfb_mesh_case

@@ -2,7 +2,7 @@
 module gfb_model_case
   use gfb_kinds, only: wp
   use gfb_analysis_row, only: analysis_row_type
-  use gfb_bearing_case, only: needs_journal, needs_thrust
+  use gfb_bearing_row, only: bearing_row_type, needs_thrust
   use gfb_case_keys, only: case_keys_type, unless, from_to, positive, longest_list
   use gfb_foil_row, only: foil_row_type, foil_rows, foil_shell
   use gfb_key_effect, only: acts_on_all
@@ -77,15 +77,15 @@ module gfb_model_case
 contains
 
   !> Reads the group.
-  subroutine read_model_case(keys, model, thrust, analysis)
+  subroutine read_model_case(keys, model, bearing, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(model_case_type), intent(out) :: model !! what `&model` asks for
-    logical, intent(in) :: thrust   !! the pads are sectors of a ring
+    type(bearing_row_type), intent(in) :: bearing !! the kind of bearing
     type(analysis_row_type), intent(in) :: analysis !! of the case file
     character(len=:), allocatable :: journal !! why keys of one have no use
     integer :: foil !! its number, 0 where it is not known
 
-    journal = unless(.not. thrust, needs_journal)
+    journal = trim(bearing%journal_keys)
     call keys%start_group('model', required=analysis%has_film, acts_on=acts_on_all)
     foil = 0
     if (analysis%is_structure()) foil = foil_shell%number
@@ -105,7 +105,7 @@ contains
                          useless=journal)
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
                          'upwinding of the film elements')
-    if (thrust) model%film_order = film_order_biquadratic
+    model%film_order = bearing%film_order
     call keys%integer_key('film_order', model%film_order, '1: bilinear film elements; 2: '// &
                           'biquadratic ones, with twice as many node intervals each way as '// &
                           'elements (film and foils share the nodes)', from_to(1.0_wp, 2.0_wp), &
@@ -115,7 +115,7 @@ contains
     call keys%rule('model', 'film_order', model%film_order == film_order_biquadratic .and. &
                    model%film_scheme == film_scheme_supg, 'cannot be 2 where film_scheme is '// &
                    "'supg': upwinding is for bilinear elements")
-    call read_foundation(keys, model, thrust)
+    call read_foundation(keys, model, bearing)
     call read_crest_springs(keys, model)
     call keys%rule('model', 'coupling', model%coupling == coupling_partitioned .and. &
                    model%has_local_springs(), 'cannot be '// &
@@ -124,42 +124,46 @@ contains
   end subroutine read_model_case
 
   !> Springs under every point of the film.
-  subroutine read_foundation(keys, model, thrust)
+  subroutine read_foundation(keys, model, bearing)
     type(case_keys_type), intent(inout) :: keys
     type(model_case_type), intent(inout) :: model
-    logical, intent(in) :: thrust !! the pads are sectors of a ring
-    character(len=:), allocatable :: why !! its keys have no effect
+    type(bearing_row_type), intent(in) :: bearing
+    character(len=:), allocatable :: why    !! its keys have no effect
+    character(len=:), allocatable :: thrust !! why keys of sectors have no use
+    logical :: sectors
 
+    sectors = bearing%has_sectors
+    thrust = trim(bearing%thrust_keys)
     why = unless(model%foil%has_foundation, "it needs foil = 'elastic_foundation' in &model")
     if (model%foil%has_crest_springs) why = "foil = '"//trim(model%foil%word)//"' does not know it"
     call keys%idle(why)
     call keys%real_key('foundation_stiffness', model%foundation_stiffness, 'N/m^3', &
                        'pressure over deflection of the elastic foundation', positive, &
                        default='Walowit-Anno from `&bump_foil`')
-    if (thrust .and. .not. model%foundation_stiffness > 0.0_wp) then
+    if (sectors .and. .not. model%foundation_stiffness > 0.0_wp) then
       model%foundation_exponent = exponent_of_curved_strips
     end if
     call keys%real_key('foundation_exponent', model%foundation_exponent, '1', 'exponent n of '// &
                        'the radius in a thrust bearing: foundation_stiffness is that at the '// &
                        'mean radius, elsewhere it is (r/r_m)^n times that', from_to(-20.0_wp, &
                        20.0_wp), default='0; -4, of curved strips, where `&bump_foil` gives '// &
-                       'the stiffness', useless=unless(thrust, needs_thrust))
-    if (thrust) model%foundation_pressure = foundation_pressure_local
+                       'the stiffness', useless=thrust)
+    if (sectors) model%foundation_pressure = foundation_pressure_local
     call keys%real_list_key('strip_foundation_stiffness', model%strip_stiffness, longest_list, &
                             'N/m^3', 'of the strips of a thrust bearing, from the inner radius '// &
                             'on, in the place of foundation_stiffness', positive, .false., &
-                            'none', useless=unless(thrust, needs_thrust))
+                            'none', useless=thrust)
     call keys%real_list_key('cut_radii', model%cut_radii, longest_list, 'm', 'radii where '// &
                             'these strips meet, rising', positive, .false., 'none', &
-                            useless=unless(thrust, needs_thrust))
+                            useless=thrust)
     call keys%choice_key('foundation_pressure', model%foundation_pressure, pressure_words, &
                          'what deflects the foundation: the pressure at each point, which '// &
                          'leaves the edges undeflected, its mean along the axis, or along '// &
                          'the radius of a thrust bearing')
-    call keys%rule('model', 'foundation_pressure', thrust .and. model%foundation_pressure == &
+    call keys%rule('model', 'foundation_pressure', sectors .and. model%foundation_pressure == &
                    foundation_pressure_axial_mean, "must be 'local' or 'radial_mean' with "// &
                    "kind = 'thrust' in &bearing")
-    call keys%rule('model', 'foundation_pressure', .not. thrust .and. &
+    call keys%rule('model', 'foundation_pressure', .not. sectors .and. &
                    model%foundation_pressure == foundation_pressure_radial_mean, needs_thrust)
     ! One model, whichever way the rows of nodes lie.
     if (model%foundation_pressure == foundation_pressure_radial_mean) then

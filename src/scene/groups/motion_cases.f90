@@ -3,7 +3,7 @@
 module gfb_motion_cases
   use gfb_kinds, only: wp
   use gfb_units, only: pi
-  use gfb_bearing_case, only: needs_journal
+  use gfb_bearing_row, only: bearing_row_type, needs_journal
   use gfb_case_keys, only: case_keys_type, no_default, unless, from_to, not_negative, positive, &
                            any_value, longest_list, at_least, between
   use gfb_maxwell_arm, only: maxwell_arm_type
@@ -175,14 +175,14 @@ contains
   end function loss_time
 
   !> Reads the group; without it no rotor is on the bearing.
-  subroutine read_rotor_case(keys, rotor, thrust, analysis)
+  subroutine read_rotor_case(keys, rotor, bearing, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(rotor_case_type), intent(out) :: rotor !! what `&rotor` says
-    logical, intent(in) :: thrust !! the pads are sectors of a ring
+    type(bearing_row_type), intent(in) :: bearing !! the kind of bearing
     type(analysis_row_type), intent(in) :: analysis !! of the case file
     character(len=:), allocatable :: misplaced, along
 
-    along = unless(.not. thrust, needs_journal//': the rotor moves along its axis')
+    along = unless(bearing%moves_across, needs_journal//': the rotor moves along its axis')
     misplaced = analysis%refusal(group)
     call keys%start_group(group, optional=.true., present_in_file=rotor%present, &
                           misplaced=misplaced, acts_on=acts_on_all)

@@ -2,8 +2,7 @@
 module gfb_operation_case
   use gfb_kinds, only: wp, most_pads
   use gfb_units, only: rpm
-  use gfb_bearing_case, only: bearing_case_type, kind_journal, needs_journal, needs_thrust, &
-                              needs_cone
+  use gfb_bearing_case, only: bearing_case_type
   use gfb_case_keys, only: case_keys_type, no_default, any_value, positive, unless
   use gfb_text, only: text
   use gfb_analysis_row, only: analysis_row_type
@@ -57,14 +56,10 @@ contains
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     type(analysis_row_type), intent(in) :: analysis !! of the state
     logical, intent(in) :: may_rest  !! something else than the film bears the shaft, too
-    character(len=:), allocatable :: journal, thrust, along !! why keys of the kind have no use
-    logical :: ring
+    character(len=:), allocatable :: journal, thrust !! why keys of the kind have no use
 
-    ring = bearing%is_thrust()
-    along = unless(bearing%is_cone() .or. bearing%kind /= kind_journal, &
-                   needs_thrust//', or half_angle')
-    journal = unless(.not. ring, needs_journal)
-    thrust = unless(bearing%kind /= kind_journal, needs_thrust)
+    journal = trim(bearing%row%journal_keys)
+    thrust = trim(bearing%row%thrust_keys)
     call keys%start_group('operation', required=analysis%has_film, &
                           optional=analysis%is_structure(), &
                           misplaced=analysis%refusal('operation'), acts_on=acts_on_point)
@@ -76,31 +71,31 @@ contains
                    may_rest), 'must be positive: a film without speed carries no load; '// &
                    '&shaft_contact does')
     call keys%real_vector_key('load', operation%load, 'N', 'external force on the shaft, x and y', &
-                              required=analysis%floats .and. .not. ring, &
+                              required=analysis%floats .and. bearing%row%moves_across, &
                               default='required for an equilibrium', given=operation%load_given, &
                               useless=journal)
     call keys%real_vector_key('eccentricity', operation%eccentricity, 'm', &
                               'position of the sleeve relative to the shaft, x and y: fixed, '// &
                               'or where the search for an equilibrium starts', &
-                              required=analysis%holds .and. .not. ring, &
+                              required=analysis%holds .and. bearing%row%moves_across, &
                               default='required for a fixed position', &
                               given=operation%eccentricity_given, useless=journal)
     call keys%idle(unless(analysis%holds, 'the search for the equilibrium starts there'))
     call keys%real_key('axial_eccentricity', operation%axial_eccentricity, 'm', 'position of '// &
                        'the sleeve of a cone relative to the shaft, z, which narrows the gap: '// &
                        'fixed, or where the search for an equilibrium starts', any_value, &
-                       useless=unless(bearing%is_cone(), needs_cone))
+                       useless=trim(bearing%row%cone_keys))
     call keys%idle(unless(.not. analysis%holds, 'the gap is given'))
     call keys%real_key('axial_load', operation%axial_load, 'N', 'force that presses the runner '// &
                        'of a thrust bearing on its pads, or the shaft into its cone, along -z', &
                        merge(any_value, positive, bearing%play > 0.0_wp), &
-                       (ring .or. bearing%is_cone()) .and. analysis%floats, default=no_default, &
-                       useless=along)
+                       bearing%row%moves_along .and. analysis%floats, default=no_default, &
+                       useless=trim(bearing%row%axial_keys))
     call keys%idle(unless(analysis%holds, 'the search for the equilibrium starts there'))
     call keys%real_key('axial_gap', operation%axial_gap, 'm', 'gap from the land of its pads '// &
                        'to its runner, on the axis, foils at rest: held, or where the search '// &
                        'for an equilibrium starts', positive, &
-                       ring .and. analysis%holds, default=no_default, &
+                       bearing%row%has_sectors .and. analysis%holds, default=no_default, &
                        given=operation%axial_gap_given, useless=thrust)
     call keys%rule('operation', 'axial_gap', bearing%play > 0.0_wp .and. &
                    operation%axial_gap >= bearing%play, 'must be less than axial_play in '// &

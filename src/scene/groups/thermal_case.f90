@@ -1,7 +1,7 @@
 !> `&thermal`: the heat of the film, and where it goes.
 module gfb_thermal_case
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: needs_journal
+  use gfb_bearing_row, only: bearing_row_type
   use gfb_case_keys, only: case_keys_type, longest_list, any_value, between, from_to, no_default, &
                            not_negative, positive, unless
   use gfb_foil_cases, only: bump_foil_case_type
@@ -72,17 +72,17 @@ module gfb_thermal_case
 contains
 
   !> Reads the group; the gas gets the viscosity that its law has at ambient temperature.
-  subroutine read_thermal_case(keys, thermal, gas, foil, thrust, analysis)
+  subroutine read_thermal_case(keys, thermal, gas, foil, bearing, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(thermal_case_type), intent(out) :: thermal !! what `&thermal` asks for
     type(gas_case_type), intent(inout) :: gas !! what `&gas` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
-    logical, intent(in) :: thrust !! the pads are sectors of a ring
+    type(bearing_row_type), intent(in) :: bearing !! the kind of bearing
     type(analysis_row_type), intent(in) :: analysis !! of the case file
     character(len=:), allocatable :: journal !! why keys of one have no use
     logical :: given(3)
 
-    journal = unless(.not. thrust, needs_journal)
+    journal = trim(bearing%journal_keys)
     call keys%start_group('thermal', optional=.true., present_in_file=thermal%present, &
                           misplaced=analysis%refusal('thermal'), acts_on=acts_on_film)
     call keys%idle(unless(thermal%present, 'the file has no group &thermal'))
@@ -99,8 +99,8 @@ contains
     call keys%choice_key('shaft', thermal%shaft, wall_words, 'shaft of one temperature, given '// &
                          'or such that its heat goes to a far place; or a fin along its axis; '// &
                          'of thrust bearings the runner')
-    call keys%rule('thermal', 'shaft', thrust .and. thermal%shaft == wall_fin, 'must be '// &
-                   "'given' or 'conductance' with kind = 'thrust' in &bearing")
+    call keys%rule('thermal', 'shaft', bearing%has_sectors .and. thermal%shaft == wall_fin, &
+                   "must be 'given' or 'conductance' with kind = 'thrust' in &bearing")
     call read_place(keys, 'shaft', thermal%shaft, thermal%ambient_temperature, &
                     thermal%shaft_temperature, thermal%shaft_conductance, &
                     thermal%shaft_far_temperature)

@@ -1,8 +1,8 @@
 !> `&top_foil`: the smooth foil under the film.
 module gfb_top_foil_case
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: needs_journal
-  use gfb_case_keys, only: case_keys_type, no_default, between, positive, unless
+  use gfb_bearing_row, only: bearing_row_type
+  use gfb_case_keys, only: case_keys_type, no_default, between, positive
   use gfb_foil_row, only: foil_row_type
   use gfb_key_effect, only: acts_on_sheets, acts_on_shapes, acts_on_all
   use gfb_scene_case, only: needs_type
@@ -29,10 +29,10 @@ module gfb_top_foil_case
 contains
 
   !> Reads the group.
-  subroutine read_top_foil_case(keys, foil, thrust, needs, model)
+  subroutine read_top_foil_case(keys, foil, bearing, needs, model)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(top_foil_case_type), intent(out) :: foil !! what `&top_foil` asks for
-    logical, intent(in) :: thrust !! the pads are sectors, fixed where their ramp begins
+    type(bearing_row_type), intent(in) :: bearing !! the kind of bearing
     type(needs_type), intent(in) :: needs !! of the analysis
     type(foil_row_type), intent(in) :: model !! of the foils
 
@@ -49,13 +49,13 @@ contains
                        acts_on=acts_on_sheets)
     call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needs%top_mass, &
                        default=no_default)
-    if (thrust) foil%fixed_edge = top_foil_leading
+    if (bearing%has_sectors) foil%fixed_edge = top_foil_leading ! where their ramp begins
     call keys%choice_key('fixed_edge', foil%fixed_edge, top_foil_edges, 'where the foil is '// &
                          'fixed; of thrust bearings it is leading by default')
     call keys%real_key('free_radius', foil%free_radius, 'm', 'radius of the foil before it is '// &
                        'put in: larger than `radius` presses it on its bumps, smaller lifts it', &
                        positive, default='`radius`', &
-                       useless=unless(.not. thrust, needs_journal), acts_on=acts_on_shapes)
+                       useless=trim(bearing%journal_keys), acts_on=acts_on_shapes)
 
   contains
 

@@ -7,7 +7,7 @@ module gfb_answer_numbers
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: this_rank, sum_over_ranks, largest_over_ranks
   use gfb_film_load, only: film_forces
-  use gfb_film_surface, only: film_surface_type, axial_coordinate, translations
+  use gfb_film_surface, only: film_surface_type, translations
   use gfb_film_measures, only: film_drag, film_drag_rates, film_moment
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
@@ -195,9 +195,10 @@ contains
   pure function coordinates_of(surface) result(coordinate)
     type(film_surface_type), intent(in) :: surface !! that the film lies on
     integer :: coordinate(forces)
+    integer, allocatable :: motion(:)
 
-    coordinate = [1, 2, 4, 5]
-    if (surface%is_ring()) coordinate(1) = axial_coordinate
+    motion = surface%motions()
+    coordinate = [motion(1), 2, 4, 5]
   end function coordinates_of
 
   !> This rank's shares of the derivatives of these numbers by the local unknowns, at the present state and point.

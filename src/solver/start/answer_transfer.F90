@@ -212,7 +212,7 @@ contains
     end if
     if (surface%mesh%middle > 0.0_wp) then ! rotations are not about the rays
       along%distance = 0.0_wp
-    else if (bearing%whole%surface%is_ring()) then ! stations are nearer to each other inside
+    else if (surface%mesh%ring_radius > 0.0_wp) then ! stations are nearer to each other inside
       along%distance = along%distance*surface%mesh%row_axial(row)/bearing%whole%surface%radius
     end if
     across = find_places(small_surface%mesh%row_axial, surface%mesh%row_axial(row), small%whole%half)

@@ -8,6 +8,7 @@
 module gfb_heat_start
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_film_surface, only: axial_coordinate
   use gfb_work_bound, only: gives_up
   use gfb_ending, only: ending_type, path_heats_up, ending_heated, ending_lost
   use gfb_operating_point, only: operating_point_type
@@ -126,7 +127,7 @@ contains
       answer = bearing_answer(bearing, brief=.true.)
       associate (whole => answer%heat%whole, surface => bearing%pad(1)%film%surface)
         film = film_work_type(drag=whole%power, flow=max(whole%leading, whole%trailing, whole%trailing + whole%sides), area=whole%area)
-        if (bearing%floats .and. surface%is_ring()) then
+        if (bearing%floats .and. .not. any(bearing%coordinate < axial_coordinate)) then
           film%power = 0.5_wp
         else if (bearing%floats) then
           film%drag = min(film%drag, heat%gas%law%viscosity*(surface%radius*bearing%point%speed)**2*whole%area/whole%mean_gap)

@@ -86,7 +86,7 @@ contains
 
     can = scene%model%foil%has_bumps .and. scene%model%half_width == half_width_auto .and. .not. plan%half .and. &
       modulo(plan%axial, 2) == 0 .and. scene%thermal%mirrors() .and. .not. any(abs(target%place(4:5)) > 0.0_wp) .and. &
-      .not. scene%bearing%is_thrust()
+      scene%bearing%row%has_half_width
   end function can_halve
 
   !> Few rows, or else half the stations of film and top foil; a fixed shaft, which cannot give way where the foil deflects

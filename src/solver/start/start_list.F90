@@ -85,7 +85,7 @@ contains
       if (problem%refused .and. problem%bearing%floats) first = [start_smaller_end]
     end if
     associate (bearing => problem%bearing, target => problem%target)
-      if (problem%scene%bearing%is_thrust()) then
+      if (.not. problem%scene%bearing%row%moves_across) then
         starts = [start_from_gap]
       else if (.not. problem%scene%model%foil%has_bumps) then
         starts = [start_from_rest]
@@ -212,8 +212,8 @@ contains
     type(path_report_type), intent(in) :: report !! of the starts before
 
     suits = problem%bearing%floats .and. problem%scene%model%foil%has_bumps .and. .not. &
-      (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction .or. &
-       problem%scene%bearing%is_thrust())
+      (problem%refused .or. problem%carried_only .or. report%ending%kind == ending_suction) .and. &
+      problem%scene%bearing%row%moves_across
     if (suits) suits = has_free_edge(problem%bearing)
   end function suits_lighter_load
 

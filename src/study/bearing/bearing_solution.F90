@@ -3,7 +3,7 @@
 !> none.
 module gfb_bearing_solution
   use gfb_kinds, only: wp
-  use gfb_film_surface, only: axial_coordinate, translations
+  use gfb_film_surface, only: translations
   use gfb_units, only: pi, degree
   use gfb_errors, only: error_type
   use gfb_text, only: text
@@ -33,10 +33,6 @@ module gfb_bearing_solution
   use gfb_run_context, only: run_context_type
   implicit none (type)
   private
-
-  !> Newton's, of a runner: as its gap closes the film's residual grows before it falls. A sweep over four loads takes 22
-  !> factorizations with them, 91 without.
-  integer, parameter :: bold_steps = 6
 
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, public :: bearing_solution_type
@@ -77,7 +73,7 @@ contains
     associate (solver => scene%solver)
       self%path = path_settings_type(solver%maximum_load_steps, solver%smallest_load_step, solver%touch_down_gap)
       self%tolerances = newton_settings_type(solver%residual_tolerance, solver%step_tolerance, solver%maximum_iterations)
-      if (self%scene%bearing%is_thrust()) self%tolerances%bold_steps = bold_steps
+      self%tolerances%bold_steps = scene%bearing%row%bold_steps
     end associate
     self%tolerances%bound => self%bound
     self%partitioned = scene%model%coupling == coupling_partitioned .and. scene%model%foil%deflects
@@ -346,28 +342,29 @@ contains
       if (self%scene%model%has_local_springs()) then
         call log%line('with foundation_pressure = ''local'' the edges, at ambient pressure, do '// &
                       'not deflect and may touch first; '''// &
-                      trim(merge('radial_mean', 'axial_mean ', self%scene%bearing%is_thrust()))//''' in &model lets them')
+                      trim(self%scene%bearing%row%width)//'_mean'' in &model lets them')
       end if
       select case (reason%code)
       case (reason_fixed_shaft)
         call log%line('last state reached: tilt ('//text(point%place(4), 4)//', '// &
                       text(point%place(5), 4)//') rad, film force '//force_words(self%bearing, force)//', '// &
-                      thinnest_film(self%bearing))
+                      thinnest_film(self%bearing, self%scene%bearing%row%coordinate))
       case (reason_no_equilibrium, reason_no_limit)
         call log%line('last state reached: load '//force_words(self%bearing, force)//', speed '//text(point%speed*30.0_wp/pi, 5)//' rpm, tilt ('// &
                       text(point%place(4), 4)//', '//text(point%place(5), 4)//') rad, '// &
-                      thinnest_film(self%bearing))
+                      thinnest_film(self%bearing, self%scene%bearing%row%coordinate))
       case default
         call log%line('last state reached: '//text(100.0_wp*report%fraction, 4)// &
                       ' % of the path, speed '// &
-                      text(point%speed*30.0_wp/pi, 5)//' rpm, '//thinnest_film(self%bearing))
+                      text(point%speed*30.0_wp/pi, 5)//' rpm, '//thinnest_film(self%bearing, self%scene%bearing%row%coordinate))
       end select
     end associate
   end subroutine explain
 
   !> Where the film is thinnest, in words; of half a width, the half that is solved.
-  function thinnest_film(bearing) result(words)
+  function thinnest_film(bearing, coordinate) result(words)
     type(bearing_system_type), intent(in) :: bearing
+    character(len=*), intent(in) :: coordinate !! of its rows
     character(len=:), allocatable :: words
     real(wp) :: unknown(bearing%local_size()), smallest, place(2)
 
@@ -379,18 +376,26 @@ contains
       return
     end if
     words = 'film thinnest at theta = '//text(place(2)/degree, 4)//' deg, '// &
-            trim(merge('r', 'z', bearing%pad(1)%film%surface%is_ring()))//' = '// &
+            coordinate//' = '// &
             text(place(1)*1.0e3_wp, 3)//' mm: '//text(smallest*1.0e6_wp, 3)//' um'
   end function thinnest_film
 
-  !> A force across a journal's axis, or along a runner's.
+  !> A force along the ways that the shaft may move.
   function force_words(bearing, force) result(words)
     type(bearing_system_type), intent(in) :: bearing
     real(wp), intent(in) :: force(:) !! of its film [N], [N m]
     character(len=:), allocatable :: words
+    integer, allocatable :: way(:)
+    integer :: i
 
-    words = '('//text(force(1), 5)//', '//text(force(2), 5)//') N'
-    if (bearing%pad(1)%film%surface%is_ring()) words = text(force(axial_coordinate), 5)//' N'
+    way = bearing%pad(1)%film%surface%motions()
+    way = pack(way, way <= translations)
+    words = text(force(way(1)), 5)
+    do i = 2, size(way)
+      words = words//', '//text(force(way(i)), 5)
+    end do
+    if (size(way) > 1) words = '('//words//')'
+    words = words//' N'
   end function force_words
 
   !> Frees what paths alone need; the bearing stays.

@@ -88,7 +88,7 @@ contains
       call add_whirl(log, bearing, response, model, found, whirl, record%problem)
       if (scene%rotor%present .and. .not. allocated(record%problem)) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
     end if
-    if (.not. allocated(record%problem) .and. scene%bearing%is_thrust() .and. scene%rotor%present) then
+    if (.not. allocated(record%problem) .and. scene%bearing%row%moves_along .and. scene%rotor%present) then
       call add_axial_mode(scene, log, bearing, response, point%frequency(1), found)
     end if
     record%point = [record%point, point]

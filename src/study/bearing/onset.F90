@@ -46,7 +46,7 @@ contains
 
     associate (scene => solution%scene, bearing => solution%bearing, newton => solution%newton, &
                history => solution%record%history, onset => solution%record%dynamics%onset)
-      if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present .or. scene%bearing%is_thrust()) return
+      if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present .or. scene%bearing%row%moves_along) return
       if (onset > 0.0_wp .or. size(history) < 2) return
       associate (before => history(size(history) - 1)%quantity, last => history(size(history))%quantity)
         speed = [number_in(before, 'speed_rpm'), number_in(last, 'speed_rpm')]

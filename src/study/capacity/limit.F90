@@ -5,7 +5,7 @@ module gfb_limit
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_text, only: text
-  use gfb_bearing_case, only: pad_angle
+  use gfb_bearing_case, only: pad_area
   use gfb_film_surface, only: translations
   use gfb_scene, only: scene_type
   use gfb_analysis_row, only: limit_load, limit_speed
@@ -57,10 +57,9 @@ contains
     limit%length = scene%bearing%length
     limit%diameter = 2.0_wp*scene%bearing%radius
     limit%arm = 0.5_wp*limit%length
-    if (.not. scene%bearing%is_thrust()) return
+    if (scene%bearing%row%moves_across) return
     limit%arm = scene%bearing%radius
-    limit%area = 0.5_wp*real(scene%bearing%pads, wp)*pad_angle(scene%bearing)* &
-                 (scene%bearing%radius**2 - scene%bearing%inner_radius**2)
+    limit%area = pad_area(scene%bearing)
   end function limit_of
 
   !> Whether it is the film that tells, and not the asperities.

@@ -165,9 +165,9 @@ contains
     associate (bearing => scene%bearing)
       call find_shapes(bearing, scene%bore, bearing%leading_edge_angle, 1.0_wp, shape)
       words = 'bore             up to '//text(peak_of(shape)*1.0e6_wp, 4)//' um over the '// &
-              trim(merge('pads'' plane', 'circle     ', bearing%is_thrust()))//', '// &
+              trim(bearing%row%no_bore)//', '// &
               text(peak_of(shape)/bearing%clearance, 3)//' of the '// &
-              trim(merge('gap''s size', 'clearance ', bearing%is_thrust()))
+              trim(bearing%row%gap_size)
       call kinks_inside(mesh, kinks_of(shape, 0.0_wp, pad_turn(bearing, &
                                                                [(i, i=1, bearing%pads)])), &
                         on_pad, inside)

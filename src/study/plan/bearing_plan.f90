@@ -1,7 +1,7 @@
 !> What a scene needs, and no more; each choice with its reason.
 module gfb_bearing_plan
   use gfb_kinds, only: wp
-  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_angle
+  use gfb_bearing_case, only: bearing_case_type, pad_length, pad_area
   use gfb_foundation_foil, only: foundation_stiffness
   use gfb_gas_case, only: gas_case_type
   use gfb_model_case, only: reduction_guyan, half_width_auto, half_width_yes, film_scheme_supg, &
@@ -37,14 +37,6 @@ module gfb_bearing_plan
   !> of the film: a rank that has fewer waits more than it computes
   integer, parameter :: few_nodes = 200
 
-  !> Cell Peclet number of the concentric film above which SUPG is chosen [1]. Rigid bearings,
-  !> Lambda 0.1 to 3000, eccentricity ratio 0.9 to 0.999: below it Galerkin has the smaller error;
-  !> above it both have the same error in the force, but Galerkin misses the smallest pressure by
-  !> percents.
-  real(wp), parameter :: galerkin_limit = 2.0_wp
-  !> The same of sectors, whose force Galerkin has better up to 7.6 of the land at the outer radius.
-  real(wp), parameter :: limit_of_sectors = 10.0_wp
-
 contains
 
   !> Bearing number, load, clearance and stiffness of the bumps, as far as the scene has them.
@@ -52,27 +44,26 @@ contains
     type(scene_type), intent(in) :: scene !! of a bearing
     type(run_log_type), intent(in) :: log !! where lines go
     real(wp) :: stiffness !! of the bumps [N/m^3]
-    real(wp) :: p_a, area !! [Pa], D L [m^2]
+    real(wp) :: p_a, area !! [Pa], [m^2]
+    character(len=1) :: symbol !! of the gap
 
     p_a = scene%gas%ambient_pressure
+    area = pad_area(scene%bearing)
+    symbol = scene%bearing%row%gap_symbol
     call log%line('numbers without unit:')
-    if (scene%bearing%is_thrust()) then
-      area = real(scene%bearing%pads, wp)*pad_angle(scene%bearing)*scene%bearing%length* &
-             0.5_wp*(scene%bearing%radius + scene%bearing%inner_radius)
+    if (scene%bearing%row%has_sectors) then
       call log%line('  inner over outer radius: '// &
                     text(scene%bearing%inner_radius/scene%bearing%radius, digits))
       call log%line('  size of the gap h (axial_gap, or half of the ramp) over outer radius R: '// &
                     text(scene%bearing%clearance/scene%bearing%radius, digits))
     else
-      area = 2.0_wp*scene%bearing%radius*scene%bearing%length
       call log%line('  clearance over radius C/R: '// &
                     text(scene%bearing%clearance/scene%bearing%radius, digits))
     end if
-    call log%line('  bearing number 6 mu Omega/p_a (R/'// &
-                  merge('h', 'C', scene%bearing%is_thrust())//')^2: '// &
+    call log%line('  bearing number 6 mu Omega/p_a (R/'//symbol//')^2: '// &
                   spread_text(scene, sweep_speed, scene%operation%speed_rpm, &
                               bearing_number(scene%bearing, scene%gas, 1.0_wp)))
-    if (scene%general%analysis%floats .and. scene%bearing%is_thrust()) then
+    if (scene%general%analysis%floats .and. .not. scene%bearing%row%moves_across) then
       call log%line('  load over p_a times the pads'' area: '// &
                     spread_text(scene, sweep_axial_load, scene%operation%axial_load, &
                                 1.0_wp/(p_a*area)))
@@ -87,8 +78,7 @@ contains
       stiffness = bump_stiffness(scene%bump_foil)
     end if
     if (stiffness > 0.0_wp) then
-      call log%line('  bump stiffness times '//merge('h', 'C', scene%bearing%is_thrust())// &
-                    ' over p_a: '// &
+      call log%line('  bump stiffness times '//symbol//' over p_a: '// &
                     text(stiffness*scene%bearing%clearance/p_a, digits))
     end if
   end subroutine show_numbers
@@ -135,15 +125,12 @@ contains
     call show_numbers(scene, log)
     call describe_foil(scene, log)
     if (scene%thermal%present) call describe_heat(scene, log)
-    if (.not. scene%bearing%is_thrust()) call choose_width(scene, log, plan)
+    if (scene%bearing%row%has_half_width) call choose_width(scene, log, plan)
     call choose_scheme(scene, log, plan)
     if (plan%floats .and. scene%operation%moment_given) then
       call log%line('runner: axial gap and tilt are unknowns, balanced with load and moment')
-    else if (plan%floats .and. scene%bearing%is_thrust()) then
-      call log%line('runner: the axial gap is unknown, balanced with the load')
     else if (plan%floats) then
-      call log%line('shaft: (e_x, e_y'//trim(merge(', e_z', '     ', scene%bearing%is_cone()))// &
-                    ') are unknowns, balanced with the load')
+      call log%line(trim(scene%bearing%row%unknowns)//', balanced with the load')
     else
       call log%line('shaft: position given, no shaft unknowns')
     end if
@@ -157,7 +144,7 @@ contains
                   trim(merge(' biquadratic', '            ', &
                              plan%order == film_order_biquadratic))// &
                   ' elements over the whole pad, '//text(nodes)//' nodes solved')
-    call warn_of_change(film_mesh_of(scene, plan), log)
+    call warn_of_change(film_mesh_of(scene, plan), scene%bearing%row%coordinate, log)
     sides = scene%bearing%all_pads()/scene%bearing%pads
     if (sides > 1) then
       call log%line('runner between two bearings: a mirror image of this one faces its '// &
@@ -198,8 +185,9 @@ contains
   end subroutine plan_bearing
 
   !> Warns of elements of the film that are out of proportion to those beside them.
-  subroutine warn_of_change(mesh, log)
+  subroutine warn_of_change(mesh, coordinate, log)
     type(film_mesh_type), intent(in) :: mesh !! of the film
+    character(len=*), intent(in) :: coordinate !! of its rows
     type(run_log_type), intent(in) :: log
     real(wp) :: change(2), place(2)
 
@@ -210,8 +198,8 @@ contains
                        'of them lies on there is too near to the next; answers may be rough')
     end if
     if (change(2) > most_change) then
-      call log%warning('rows of elements of the film beside '//trim(merge('radius', 'z =   ', &
-                       mesh%surface%is_ring()))//' '//text(place(2), digits)//' m differ by a '// &
+      call log%warning('rows of elements of the film beside '//coordinate//' = '// &
+                       text(place(2), digits)//' m differ by a '// &
                        'factor of '//text(change(2), digits)//': answers may be rough')
     end if
   end subroutine warn_of_change
@@ -269,7 +257,7 @@ contains
       if (scene%model%foundation_stiffness > 0.0_wp) source = 'as given'
       pressure = 'local pressure'
       if (scene%model%foundation_pressure == foundation_pressure_axial_mean) then
-        pressure = trim(merge('radial', 'axial ', scene%bearing%is_thrust()))//' mean pressure'
+        pressure = trim(scene%bearing%row%width)//' mean pressure'
       end if
       call log%line('foil: '//trim(scene%model%foil%meaning)//', '// &
                     text(foundation_stiffness(scene%model, scene%bump_foil)*1.0e-9_wp, 5)// &
@@ -337,7 +325,7 @@ contains
                   .not. scene%rotor%distance_in_time > 0.0_wp
       plan%half = symmetric .and. modulo(plan%axial, 2) == 0
       plan%half = plan%half .and. strips_mirror(scene)
-      if (scene%bearing%is_cone()) then
+      if (scene%bearing%row%ends_differ) then
         call log%line('width: whole, because the ends of a cone are not alike')
       else if (.not. strips_mirror(scene)) then
         call log%line('width: whole, because the strips do not mirror each other')
@@ -361,8 +349,6 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(bearing_plan_type), intent(inout) :: plan
-    real(wp) :: limit
-
     plan%peclet = concentric_peclet(scene, plan)
     if (plan%order == film_order_biquadratic) then
       call log%line('film: Galerkin, because upwinding is for bilinear elements')
@@ -375,12 +361,12 @@ contains
                     ', as film_scheme asks')
       return
     end if
-    limit = merge(limit_of_sectors, galerkin_limit, scene%bearing%is_thrust())
-    plan%upwind = plan%peclet > limit
+    plan%upwind = plan%peclet > scene%bearing%row%galerkin_limit
     call log%line('film: '//trim(merge('SUPG    ', 'Galerkin', plan%upwind))// &
                   ', because the cell Peclet number of the concentric film is '// &
                   text(plan%peclet, 3)// &
-                  trim(merge(' > ', ' < ', plan%upwind))//' '//text(limit))
+                  trim(merge(' > ', ' < ', plan%upwind))//' '// &
+                  text(scene%bearing%row%galerkin_limit))
   end subroutine choose_scheme
 
   !> Cell Peclet number of the film at ambient pressure between concentric surfaces.
