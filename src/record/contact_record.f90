@@ -45,7 +45,7 @@ contains
     type(foil_surface_type), allocatable :: surface(:)
     integer :: i
 
-    surface = bearing%pad(1)%foil%surfaces()
+    surface = bearing%foil_surfaces()
     do i = 1, size(surface)
       if (.not. surface(i)%has_contacts) cycle
       call add_contact_arrays(pad_contacts(bearing), surface(i), record, points, arrays)

@@ -12,9 +12,11 @@ module gfb_bearing
   use gfb_natural_order, only: natural_order_type
   use gfb_contact_path, only: begin_contact_path, next_contact, switch_contact, never
   use gfb_petsc_session, only: this_rank, rank_count, sum_over_ranks, largest_over_ranks
-  use gfb_solid_contact, only: contact_pressure
+  use gfb_solid_contact, only: solid_contact_type, contact_pressure
   use gfb_film_load, only: film_forces
+  use gfb_film_mesh, only: film_mesh_type
   use gfb_film_surface, only: shaft_coordinates, translations
+  use gfb_foil_surface, only: foil_surface_type
   use gfb_operating_point, only: operating_point_type
   use gfb_nonlinear_system, only: nonlinear_system_type, contact_name
   use gfb_blocks, only: blocks_type
@@ -112,6 +114,9 @@ module gfb_bearing
   type, abstract, extends(nonlinear_system_type), public :: bearing_type
     type(operating_point_type) :: point    !! what it is asked to bear now
     real(wp) :: clearance = 0.0_wp         !! C, by which lengths are measured [m]
+    real(wp) :: ambient_pressure = 0.0_wp  !! p_a [Pa]
+    type(solid_contact_type) :: asperities !! of the shaft
+    type(film_mesh_type) :: mesh           !! of the first pad's film; others are turned, offset, or face the other way
     integer, allocatable :: coordinate(:)  !! of the shaft, those that are unknowns
     logical :: floats = .false.            !! there are some
     logical :: shaft_fixed = .false.       !! there are, but fixed at the point's place
@@ -136,6 +141,7 @@ module gfb_bearing
     procedure :: add_up => add_up_unknowns
     procedure :: summed => summed_values
     procedure :: field => block_field
+    procedure :: upwinds, foil_surfaces, has_mirror_motions, mesh_nodes
     procedure :: has_slow_unknowns
     procedure :: local_size, film_nodes, film_pressure, put_pressure, film_force, is_meshed
     procedure :: has_contacts
@@ -357,7 +363,7 @@ contains
   pure function levers(self) result(lever)
     class(bearing_type), intent(in) :: self !! the bearing
     real(wp) :: lever(size(self%coordinate))
-    lever = merge(1.0_wp, self%pad(1)%film%surface%tilt_arm(), self%coordinate <= translations)
+    lever = merge(1.0_wp, self%mesh%surface%tilt_arm(), self%coordinate <= translations)
   end function levers
 
   !> Size of a force: the load, and ambient pressure on the bearing's shadow [N].
@@ -365,10 +371,11 @@ contains
     class(bearing_type), intent(in) :: self !! the bearing
     type(operating_point_type), intent(in), optional :: point !! default: the present one
 
+    force = self%pad(1)%film%shadow()
     if (present(point)) then
-      force = norm2(point%load(:translations)) + self%pad(1)%film%shadow()
+      force = force + norm2(point%load(:translations))
     else
-      force = norm2(self%point%load(:translations)) + self%pad(1)%film%shadow()
+      force = force + norm2(self%point%load(:translations))
     end if
   end function force_scale
 
@@ -573,6 +580,32 @@ contains
       end associate
     end do
   end subroutine put_pressure
+
+  !> Whether the films are weighted by SUPG instead of Galerkin.
+  pure logical function upwinds(self)
+    class(bearing_type), intent(in) :: self !! the bearing
+    upwinds = self%pad(1)%film%flow%upwind
+  end function upwinds
+
+  !> Surfaces of the foils of each pad.
+  function foil_surfaces(self) result(surface)
+    class(bearing_type), intent(in) :: self !! the bearing
+    type(foil_surface_type), allocatable :: surface(:)
+    surface = self%pad(1)%foil%surfaces()
+  end function foil_surfaces
+
+  !> Whether foils have motions against the mirror image, which half of the width does not show.
+  pure logical function has_mirror_motions(self) result(has)
+    class(bearing_type), intent(in) :: self !! the bearing
+    has = self%mesh%half .and. self%pad(1)%foil%moves_against_mirror()
+  end function has_mirror_motions
+
+  !> Nodes of a pad's whole mesh that this rank knows, in the order of its own.
+  pure function mesh_nodes(self) result(node)
+    class(bearing_type), intent(in) :: self !! the bearing
+    integer, allocatable :: node(:)
+    node = self%pad(1)%mesh%mesh_node
+  end function mesh_nodes
 
   !> This rank's share of force and torque of pressures at the film nodes of all pads [N], [N m].
   pure function film_force(self, pressure) result(force)

@@ -117,18 +117,18 @@ contains
       answer%pad_force = sums(:film_forces, :)
       answer%pad_gap = -most(1, :)
     end if
-    if (whole .and. bearing%pad(1)%foil%is_meshed()) call read_lifts(bearing, unknown, answer)
+    if (whole .and. bearing%is_meshed()) call read_lifts(bearing, unknown, answer)
     if (present(stresses)) then
-      if (stresses .and. bearing%pad(1)%foil%is_meshed()) then
+      if (stresses .and. bearing%is_meshed()) then
         call read_stresses(bearing, unknown, answer)
       end if
     end if
-    if (bearing%pad(1)%contact%present) call read_solid_contact(bearing, unknown, answer)
+    if (bearing%asperities%present) call read_solid_contact(bearing, unknown, answer)
     answer%place = bearing%shaft_place()
-    answer%moves_along = size(bearing%pad(1)%film%surface%motions()) == shaft_coordinates
+    answer%moves_along = size(bearing%mesh%surface%motions()) == shaft_coordinates
     answer%force = total(1:film_forces) + answer%solid_force
     answer%force_without_suction = total(film_forces + 1:2*film_forces) + answer%solid_force
-    answer%friction_torque = total(size(total))*bearing%pad(1)%film%surface%radius &
+    answer%friction_torque = total(size(total))*bearing%mesh%surface%radius &
                              + answer%solid_torque
     if (bearing%heat%present) then
       answer%heat = read_heat(bearing, bearing%position(unknown), unknown, gap)
@@ -147,7 +147,7 @@ contains
     answer%rough_peclet = largest(7)
     answer%maximum_deflection = largest(8)
     if (whole) answer%contact = measures_of(largest(9:), sum(contact, 2))
-    if (whole .and. bearing%pad(1)%film%surface%is_ring()) then
+    if (whole .and. bearing%mesh%surface%is_ring()) then
       answer%ring = ring_answer(bearing, pressure, gap)
       if (answer%has_foils) answer%ring%trailing_deflection = trailing_deflection(bearing, unknown)
       if (answer%ring%sides > 1) call read_other_side(bearing, answer)
@@ -173,8 +173,8 @@ contains
     end do
     area = sum_over_ranks(area)
     if (bearing%pad(size(bearing%pad))%film%surface%facing < 0.0_wp) answer%sides = 2
-    answer%area = area(2)*bearing%pad(1)%whole%repeats/answer%sides
-    answer%pads = bearing%pad(1)%whole%repeats*size(bearing%pad)
+    answer%area = area(2)*bearing%mesh%repeats/answer%sides
+    answer%pads = bearing%mesh%repeats*size(bearing%pad)
     smallest = -largest_over_ranks([-minval(gap)])
     answer%thinnest = place_of_gap(bearing, gap, smallest(1))
     associate (pad => bearing%pad(1))
@@ -303,14 +303,12 @@ contains
     end do
     call add_up(sums, total)
     if (allocated(answer%pad_force)) answer%pad_force = answer%pad_force + sums(:film_forces, :)
-    associate (film => bearing%pad(1)%film)
-      largest = largest_over_ranks([maxval(pressure)])
-      answer%has_solid_contact = .true.
-      answer%solid_force = total(:film_forces)
-      answer%solid_torque = bearing%pad(1)%contact%friction*film%surface%radius* &
-                            total(film_forces + 1)
-      answer%maximum_solid_pressure = largest(1)
-    end associate
+    largest = largest_over_ranks([maxval(pressure)])
+    answer%has_solid_contact = .true.
+    answer%solid_force = total(:film_forces)
+    answer%solid_torque = bearing%asperities%friction*bearing%mesh%surface%radius* &
+                          total(film_forces + 1)
+    answer%maximum_solid_pressure = largest(1)
   end subroutine read_solid_contact
 
   !> How far the edges of the top foil stand off the bumps, and how much of the crests touches
@@ -333,8 +331,8 @@ contains
     answer%leading_edge_lift = total(:2)/total(3:4)
     answer%trailing_edge_lift = total(5:6)/total(7:8)
     answer%pad_lift = sums(:2, :)/sums(3:4, :)
-    share = bearing%pad(1)%foil%crest_lengths()
-    do i = 2, size(bearing%pad)
+    share = 0.0_wp
+    do i = 1, size(bearing%pad)
       share = share + bearing%pad(i)%foil%crest_lengths()
     end do
     share = sum_over_ranks(share)

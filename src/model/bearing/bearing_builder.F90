@@ -176,9 +176,9 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(film_mesh_type) :: film
 
-    film = bearing%pad(1)%whole
+    film = bearing%mesh
     film%opposite = .true.
-    call build_on_mesh(scene_of(scene, bearing), film, bearing%pad(1)%film%flow%upwind, bearing%floats, opposite, error)
+    call build_on_mesh(scene_of(scene, bearing), film, bearing%upwinds(), bearing%floats, opposite, error)
     if (.not. allocated(error)) call follow_frozen(bearing, opposite)
   end subroutine build_opposite
 
@@ -203,14 +203,14 @@ contains
     real(wp), intent(in), optional :: bearing_distance
     type(bearing_plan_type) :: plan
 
-    associate (whole => bearing%pad(1)%whole)
+    associate (whole => bearing%mesh)
       plan%half = whole%half
       plan%order = whole%order
       plan%circumferential = whole%circumferential()/plan%order
       plan%axial = whole%axial()/plan%order*merge(2, 1, plan%half)
     end associate
     if (present(bearing_distance)) plan%bearing_distance = bearing_distance
-    call build_on_mesh(scene_of(scene, bearing), film_mesh_of(scene, plan), bearing%pad(1)%film%flow%upwind, bearing%floats, &
+    call build_on_mesh(scene_of(scene, bearing), film_mesh_of(scene, plan), bearing%upwinds(), bearing%floats, &
                        other, error)
     if (allocated(error)) return
     call follow_frozen(bearing, other)
@@ -245,7 +245,7 @@ contains
 
     alike = bearing%local_size() == other%local_size() .and. bearing%film_nodes() == other%film_nodes() .and. &
       size(bearing%pad(1)%foil%contacts%point) == size(other%pad(1)%foil%contacts%point)
-    if (alike) alike = all(bearing%pad(1)%mesh%mesh_node == other%pad(1)%mesh%mesh_node)
+    if (alike) alike = all(bearing%mesh_nodes() == other%mesh_nodes())
     alike = .not. any_rank(.not. alike)
   end function is_alike
 
@@ -281,8 +281,10 @@ contains
     call create_pad_film(film, scene%bearing%clearance, scene%gas%ambient_pressure, scene%gas%viscosity, upwind, &
                          bearing%pad(1), error, division%film)
     if (allocated(error)) return
-    bearing%pad(1)%contact = scene%shaft_contact ! the matrix makes room for them
-    call build_foil(scene, bearing%pad(1)%whole, bearing%pad(1)%mesh, bearing%pad(1)%film%element_nodes, division, foil, error)
+    associate (pad => bearing%pad(1))
+      pad%contact = scene%shaft_contact ! the matrix makes room for them
+      call build_foil(scene, pad%whole, pad%mesh, pad%film%element_nodes, division, foil, error)
+    end associate
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
@@ -342,6 +344,7 @@ contains
     type(gap_shape_item_type), allocatable :: shape(:)
     integer :: i, k
 
+    bearing%asperities = scene%shaft_contact
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         call find_shapes(scene%bearing, scene%bore, pad%whole%station_angle(1), pad%film%surface%facing, shape)
@@ -367,6 +370,7 @@ contains
     integer :: i
 
     bearing%clearance = scene%bearing%clearance
+    bearing%ambient_pressure = scene%gas%ambient_pressure
     call find_places(scene, 0.0_wp, place)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))

@@ -61,9 +61,14 @@ contains
     call register_cost_events(bearing%events)
     call complete_pad(foil, bearing%events, bearing%pad(1))
     if (present(place)) call place_pads(place, bearing%pad)
-    bearing%clearance = bearing%pad(1)%film%clearance
+    associate (pad => bearing%pad(1))
+      bearing%clearance = pad%film%clearance
+      bearing%ambient_pressure = pad%film%ambient_pressure
+      bearing%asperities = pad%contact
+      bearing%mesh = pad%whole
+    end associate
     bearing%floats = floats
-    associate (surface => bearing%pad(1)%film%surface, motions => bearing%pad(1)%film%surface%motions())
+    associate (surface => bearing%mesh%surface, motions => bearing%mesh%surface%motions())
       bearing%coordinate = pack(motions, floats .and. (motions <= translations .or. tilts .or. abs(surface%offset) > 0.0_wp))
     end associate
     call set_up_equations(bearing)
@@ -140,7 +145,7 @@ contains
     PetscInt, allocatable, intent(inout) :: entries(:)
     integer :: i, around
 
-    around = block%fields*(2*bearing%pad(1)%whole%order + 1)**2 + block%scalars
+    around = block%fields*(2*bearing%mesh%order + 1)**2 + block%scalars
     entries = entries + int(around, pint)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
@@ -565,8 +570,10 @@ contains
     integer, allocatable :: film(:), foil(:)
     integer :: k
 
-    film = film_numbers(bearing%pad(1)%mesh)
-    foil = bearing%pad(1)%foil%natural_numbers()
+    associate (pad => bearing%pad(1))
+      film = film_numbers(pad%mesh)
+      foil = pad%foil%natural_numbers()
+    end associate
     order%number = [film, largest_number(film) + foil]
     order%total = largest_number(order%number)
     order%number = [((k - 1)*order%total + order%number, k=1, size(bearing%pad))] ! pad by pad
@@ -586,7 +593,7 @@ contains
     type(natural_order_type), intent(inout) :: order
     integer :: number(fields, size(film), size(bearing%pad)), i, k
 
-    associate (nodes => bearing%pad(1)%whole%nodes())
+    associate (nodes => bearing%mesh%nodes())
       do i = 1, size(number, 3)
         do k = 1, fields
           number(k, :, i) = order%total + fields*(film - 1 + (i - 1)*nodes) + k

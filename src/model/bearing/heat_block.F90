@@ -23,7 +23,7 @@ contains
     class(bearing_type), intent(inout) :: bearing !! with its pads
     type(bearing_block_type), intent(out) :: block !! not numbered yet
 
-    call number_heat(bearing%heat, size(bearing%pad), bearing%pad(1)%whole%rows())
+    call number_heat(bearing%heat, size(bearing%pad), bearing%mesh%rows())
     block%name = 'heat'
     block%fields = top_foil
     block%scalars = bearing%heat%walls

@@ -19,7 +19,7 @@ contains
     real(wp) :: own(1, size(bearing%pad)*count(bearing%pad(1)%mesh%owned))
     integer :: number(size(own)), nodes, first, i
 
-    nodes = bearing%pad(1)%whole%nodes()
+    nodes = bearing%mesh%nodes()
     first = 0
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), last => first + count(bearing%pad(i)%mesh%owned))
@@ -36,8 +36,8 @@ contains
     class(bearing_type), intent(in) :: bearing !! pads and shaft
     real(wp), allocatable :: position(:) !! z [m]
 
-    associate (z => bearing%pad(1)%whole%row_axial)
-      if (bearing%pad(1)%whole%half) then
+    associate (z => bearing%mesh%row_axial)
+      if (bearing%mesh%half) then
         position = [-z(size(z):2:-1), z]
       else
         position = z
@@ -56,7 +56,7 @@ contains
     integer, allocatable :: wanted(:)
     integer :: i, rows, row, station, lines, pad
 
-    associate (whole => bearing%pad(1)%whole)
+    associate (whole => bearing%mesh)
       rows = size(full_rows(bearing))
       lines = whole%circumferential() + 1
       allocate (wanted(last - first + 1))

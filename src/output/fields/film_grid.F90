@@ -24,8 +24,8 @@ contains
     logical :: two
 
     if (.not. (output%pressure .or. output%gap .or. output%deflection)) return
-    pads = size(bearing%pad)*bearing%pad(1)%whole%repeats
-    associate (first => bearing%pad(1)%film%surface, last => bearing%pad(size(bearing%pad))%film%surface)
+    pads = size(bearing%pad)*bearing%mesh%repeats
+    associate (first => bearing%mesh%surface, last => bearing%pad(size(bearing%pad))%film%surface)
       two = abs(last%offset - first%offset) > 0.0_wp
     end associate
     if (two) pads = pads/2
@@ -76,12 +76,12 @@ contains
 
     call bearing%get_unknowns(unknown)
     film%name = name
-    surface = bearing%pad(before/bearing%pad(1)%whole%repeats + 1)%film%surface
+    surface = bearing%pad(before/bearing%mesh%repeats + 1)%film%surface
     film%grid = strip_grid(positions_along(bearing, pads), pads, full_rows(bearing) + surface%offset*surface%cosine, this_rank(), &
                            rank_count())
     associate (point => film%grid%point)
       ring = surface%is_ring()
-      angle = point(1:1, :)/surface%radius + bearing%pad(1)%whole%station_angle(1)
+      angle = point(1:1, :)/surface%radius + bearing%mesh%station_angle(1)
       do i = 1, merge(size(point, 2), 0, ring) ! a ring is no plane when it is unrolled
         point(:, i) = surface%position(angle(1, i), point(3, i))
       end do
@@ -98,7 +98,7 @@ contains
                [(bearing%pad(i)%foil%deflection(unknown(bearing%pad(i)%first + 1:bearing%pad(i)%last), bearing%modulus(i, unknown)), &
                  i=1, size(bearing%pad))])
     end if
-    if (bearing%pad(1)%contact%present) then
+    if (bearing%asperities%present) then
       call add('solid_contact_pressure', 'Pa', 'of the shaft''s asperities', bearing%solid_pressure(unknown))
     end if
     call find_shown(bearing, unknown, row, value)
@@ -137,7 +137,7 @@ contains
     real(wp), allocatable :: position(:)
     integer :: i
 
-    associate (first => bearing%pad(1)%whole)
+    associate (first => bearing%mesh)
       if (first%repeats > 1) then
         position = [(first%surface%radius*(first%station_angle - first%station_angle(1) + turn*real(i, wp)/real(pads, wp)), &
                      i=0, pads - 1)]
@@ -157,7 +157,7 @@ contains
     real(wp), allocatable :: value(:, :)
     integer :: first, last, i, columns, column, half, rows
 
-    associate (whole => bearing%pad(1)%whole, mesh => bearing%pad(1)%mesh)
+    associate (whole => bearing%mesh, mesh => bearing%pad(1)%mesh)
       half = whole%axial()
       columns = merge(2*half, half, whole%half)
       call block_bounds(film%grid%cells, this_rank(), rank_count(), first, last)

@@ -247,14 +247,14 @@ contains
     integer :: i, k, copy, copies
 
     call bearing%get_unknowns(unknown)
-    surface = bearing%pad(1)%foil%surfaces()
+    surface = bearing%foil_surfaces()
     if (size(surface) == 0) return
     behind = ''
     level = 0.0_wp ! a rank without a part of the foils writes none
     associate (top => surface(top_surface)%mesh%position)
       if (size(top, 2) > 0) level = top(2, 1) ! it is flat
     end associate
-    copies = bearing%pad(1)%whole%repeats
+    copies = bearing%mesh%repeats
     do k = 1, size(bearing%pad)
       associate (pad => bearing%pad(k))
         if (size(bearing%pad) > 1) behind = '_'//text(k)

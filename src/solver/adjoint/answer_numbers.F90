@@ -127,7 +127,7 @@ contains
     solid = bearing%solid_pressure(unknown)
     number = 0.0_wp
     force = bearing%local_force(unknown, gap)
-    number(place_force:place_torque - 1) = force(coordinates_of(bearing%pad(1)%film%surface))
+    number(place_force:place_torque - 1) = force(coordinates_of(bearing%mesh%surface))
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first => bearing%pad(i)%first_node + 1, last => bearing%pad(i)%last_node)
         if (.not. any(bearing%block%has_film)) number(place_torque) = number(place_torque) + pad%film%surface%radius* &
@@ -143,7 +143,7 @@ contains
     end do
     if (any(nodes%stress%pad > 0)) call measure_stresses(bearing, unknown, nodes%stress, number(place_stress:place_blocks - 1))
     number = sum_over_ranks(number)
-    associate (of_force => coordinates_of(bearing%pad(1)%film%surface))
+    associate (of_force => coordinates_of(bearing%mesh%surface))
       number(place_e:place_e + 1) = here%place(of_force(:2))
     end associate
     number(place_speed) = point%speed

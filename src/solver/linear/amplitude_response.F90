@@ -140,7 +140,7 @@ contains
     call bearing%get_unknowns(behind, response%other)
     call vibrate_pads(bearing, in_phase, behind, amplitude, stiffness, lost)
     total = sum_over_ranks([lost])
-    lost = total(1)*merge(2.0_wp, 1.0_wp, bearing%pad(1)%whole%half)
+    lost = total(1)*merge(2.0_wp, 1.0_wp, bearing%mesh%half)
   end subroutine answer_contacts
 
   !> What this rank's contacts answer to a motion, pad by pad.

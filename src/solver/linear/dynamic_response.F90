@@ -77,7 +77,7 @@ contains
     integer, allocatable :: moved(:)
     integer :: i, k
 
-    moved = bearing%pad(1)%film%surface%motions()
+    moved = bearing%mesh%surface%motions()
     moved = moved(coordinate)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
@@ -121,7 +121,7 @@ contains
   pure logical function against_mirror(bearing, coordinate) result(against)
     type(bearing_system_type), intent(in) :: bearing
     integer, intent(in) :: coordinate(:) !! of the shaft that move
-    against = bearing%pad(1)%whole%half .and. coordinate(1) == tilts(1)
+    against = bearing%mesh%half .and. coordinate(1) == tilts(1)
   end function against_mirror
 
   !> Linearises a bearing about its present state, which must be an answer and is left as it is.
@@ -200,9 +200,9 @@ contains
     real(wp) :: unknown(bearing%local_size())
 
     allocate (rate(bearing%film_nodes()), source=0.0_wp)
-    if (.not. bearing%pad(1)%contact%present) return
+    if (.not. bearing%asperities%present) return
     call bearing%get_unknowns(unknown)
-    rate = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(unknown))
+    rate = contact_pressure_rate(bearing%asperities, bearing%gap(unknown))
   end subroutine measure_asperities
 
   !> What else there is beside the steady equations.
@@ -219,7 +219,7 @@ contains
     do k = 1, size(response%rise)
       PetscCallA(VecDuplicate(bearing%state, response%rise(k), ierr))
     end do
-    response%motion = bearing%pad(1)%film%surface%motions()
+    response%motion = bearing%mesh%surface%motions()
     do k = 1, size(response%motion)
       PetscCallA(VecDuplicate(bearing%state, response%steady_column(k), ierr))
       PetscCallA(VecDuplicate(bearing%state, response%squeeze_column(k), ierr))
@@ -276,7 +276,7 @@ contains
       if (pad%whole%half .and. .not. pad%whole%opposite .and. .not. pad%foil%moves_against_mirror()) parts = 2
     end associate
     allocate (response%part(parts))
-    associate (part => response%part, whole => bearing%pad(1)%whole, steady => response%equations%steady)
+    associate (part => response%part, whole => bearing%mesh, steady => response%equations%steady)
       if (whole%opposite) then
         call create_part(bearing, steady, tilts, .true., part(1))
       else if (.not. whole%half) then
@@ -375,7 +375,7 @@ contains
       if (found) call solve_part(bearing, response, rate, wanted, response%part(i), coefficient, found)
       if (.not. found) return
     end do
-    if (bearing%pad(1)%whole%repeats > 1) call add_turned_pads(bearing%pad(1)%whole%repeats, coefficient)
+    if (bearing%mesh%repeats > 1) call add_turned_pads(bearing%mesh%repeats, coefficient)
     if (wanted < size(response%motion)) return
     if (.not. allocated(response%opposite)) then
       found = any([(response%part(i)%coordinate == wanted, i=1, size(response%part))])
@@ -421,9 +421,9 @@ contains
     call combine_rate(response%equations, rate, without_mass)
     associate (part => response%part(number))
       call solve_part(bearing, response, rate, size(response%motion), part, z, found, dz)
-      if (bearing%pad(1)%whole%repeats > 1) then
-        call add_turned_pads(bearing%pad(1)%whole%repeats, z)
-        call add_turned_pads(bearing%pad(1)%whole%repeats, dz)
+      if (bearing%mesh%repeats > 1) then
+        call add_turned_pads(bearing%mesh%repeats, z)
+        call add_turned_pads(bearing%mesh%repeats, dz)
       end if
       value = z(part%coordinate, part%coordinate)
       slope = dz(part%coordinate, part%coordinate)

@@ -78,7 +78,7 @@ contains
     PetscErrorCode :: ierr
 
     inertia%highest = highest
-    if (wanted == mass_off .or. .not. bearing%pad(1)%foil%is_meshed()) return
+    if (wanted == mass_off .or. .not. bearing%is_meshed()) return
     call weigh_foil(bearing, steady, modes, inertia)
     inertia%present = .true.
     if (wanted == mass_auto) then

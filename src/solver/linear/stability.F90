@@ -97,7 +97,7 @@ contains
         call measure_pad(pad, value(pad%first + 1:pad%last))
       end associate
     end do
-    value = value*bearing%pad(1)%film%ambient_pressure/bearing%clearance
+    value = value*bearing%ambient_pressure/bearing%clearance
     call bearing%add_up(value, damping)
   end subroutine measure_damping
 

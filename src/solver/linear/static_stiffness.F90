@@ -86,7 +86,7 @@ contains
 
     call bearing%get_unknowns(here)
     call bearing%get_unknowns(change, response)
-    force = sum_over_ranks(bearing%film_force(bearing%pad(1)%film%ambient_pressure + bearing%film_pressure(change) &
+    force = sum_over_ranks(bearing%film_force(bearing%ambient_pressure + bearing%film_pressure(change) &
                                               + solid_change(bearing, axis, here, change)))
     torque = force(4:5)
   end function torque_of
@@ -102,14 +102,14 @@ contains
     integer :: i
 
     pressure = 0.0_wp
-    if (.not. bearing%pad(1)%contact%present) return
+    if (.not. bearing%asperities%present) return
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         gap(pad%first_node + 1:pad%last_node) = pad_change(pad, axis, change(pad%first + 1:pad%last), &
                                                            change(bearing%first_shaft + 1:))
       end associate
     end do
-    pressure = contact_pressure_rate(bearing%pad(1)%contact, bearing%gap(here))*gap
+    pressure = contact_pressure_rate(bearing%asperities, bearing%gap(here))*gap
   end function solid_change
 
   !> How the gap over a pad changes: its foil, the shaft and the tilt move.

@@ -8,9 +8,8 @@ module gfb_branch_beyond
   use petscvec
   use gfb_kinds, only: wp
   use gfb_operating_point, only: operating_point_type
-  use gfb_petsc_session, only: any_rank
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_directions, only: edge_direction
+  use gfb_bearing_directions, only: edge_direction, has_free_edge
   use gfb_newton, only: newton_type, newton_report_type, create_newton, solve_newton, destroy_newton
   use gfb_bordered_system, only: bordered_system_type, create_bordered_system, destroy_bordered_system
   implicit none (type)
@@ -59,7 +58,7 @@ contains
     mover%settings%maximum_iterations = min(mover%settings%maximum_iterations, max_iterations) ! a move can be cut
     PetscCallA(VecDuplicate(path%state, farthest, ierr))
     PetscCallA(VecCopy(path%state, farthest, ierr))
-    if (any_rank(size(bearing%pad(1)%edge%unknown) > 0)) then
+    if (has_free_edge(bearing)) then
       call aim_at_edge(bearing, path, before, known)
       call newton%log%detail('the free edge is moved on, the path follows')
       call move_on(path, mover, wanted, farthest, most, outcome, ahead)

@@ -362,14 +362,14 @@ contains
   logical function is_closing(bearing) result(closing)
     type(bearing_system_type), intent(in) :: bearing
     closing = bearing%smallest_gap() < closing_gap*bearing%clearance
-    if (closing) closing = .not. bearing%pad(1)%contact%present
+    if (closing) closing = .not. bearing%asperities%present
   end function is_closing
 
   !> Whether the film's pressure has fallen to nothing somewhere.
   pure logical function is_emptied(bearing, answer) result(emptied)
     type(bearing_system_type), intent(in) :: bearing
     type(bearing_answer_type), intent(in) :: answer !! at its present state
-    emptied = answer%minimum_pressure < empty*bearing%pad(1)%film%ambient_pressure
+    emptied = answer%minimum_pressure < empty*bearing%ambient_pressure
   end function is_emptied
 
   !> Start value of a step: the line through the last two answers, or the path's tangent, as far along it as can be evaluated.

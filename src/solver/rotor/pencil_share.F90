@@ -176,9 +176,9 @@ contains
     associate (pad => share%bearing%pad)
       sums = sum_over_ranks(sum(reshape([(square_integrals(pad(i)%film, value(pad(i)%first + 1:pad(i)%last)), i=1, size(pad))], &
                                         [2, size(pad)]), 2))
-      energies = [sums(1)/sums(2)/pad(1)%film%ambient_pressure**2, 0.0_wp, 0.0_wp]
+      energies = [sums(1)/sums(2)/share%bearing%ambient_pressure**2, 0.0_wp, 0.0_wp]
       if (.not. share%has_foil) return
-      unit = pad(1)%film%ambient_pressure*pad(1)%film%clearance*sums(2)
+      unit = share%bearing%ambient_pressure*share%bearing%clearance*sums(2)
       call keep_foil(share, share%one)
       energies(2) = product_by(share%steady)/unit
       if (share%has_mass) energies(3) = product_by(share%mass)/unit
@@ -210,9 +210,7 @@ contains
       end associate
     end do
     area = sum_over_ranks(area)
-    associate (film => share%bearing%pad(1)%film)
-      unit = film%ambient_pressure*film%clearance*area(1)
-    end associate
+    unit = share%bearing%ambient_pressure*share%bearing%clearance*area(1)
   end function energy_unit
 
   !> Values without any order in a vector, the same in each run: multiples of the golden ratio, less their integers. No

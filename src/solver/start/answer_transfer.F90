@@ -54,8 +54,8 @@ contains
     place = small%shaft_place()
     unknown = 0.0_wp
     call find_film_places(small, bearing, around, share)
-    surface = bearing%pad(1)%foil%surfaces()
-    small_surface = small%pad(1)%foil%surfaces()
+    surface = bearing%foil_surfaces()
+    small_surface = small%foil_surfaces()
     if (size(surface) > 0 .and. size(small_surface) == size(surface)) then
       call bearing%put_pressure(merge(film_field(small, small%film_pressure(coarse), around, share), 0.0_wp, &
                                       [(bearing%pad(i)%mesh%owned, i=1, size(bearing%pad))]), unknown)
@@ -133,7 +133,7 @@ contains
 
     call from%groups(small, known)
     call to%groups(bearing, wanted)
-    across = find_places(small%pad(1)%whole%row_axial, bearing%pad(1)%whole%row_axial, small%pad(1)%whole%half)
+    across = find_places(small%mesh%row_axial, bearing%mesh%row_axial, small%mesh%half)
     do k = 1, size(wanted)
       associate (old => known(k), new => wanted(k))
         if (old%count == 0) cycle

@@ -374,7 +374,7 @@ contains
     newton%factorizations = rigid_newton%factorizations
     newton%factorizations_before = rigid_newton%factorizations
     bearing%point = request%target
-    bearing%pad%film%flow%upwind = rigid%pad(1)%film%flow%upwind
+    bearing%pad%film%flow%upwind = rigid%upwinds()
     call transfer_answer(rigid, bearing)
     allocate (unknown(bearing%local_size()))
     call bearing%get_unknowns(unknown)

@@ -262,7 +262,7 @@ contains
     call start%save(bearing)
     place = bearing%shaft_place()
     unknown = 0.0_wp
-    call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
+    call bearing%put_pressure(spread(bearing%ambient_pressure, 1, bearing%film_nodes()), unknown)
     unknown(bearing%first_shaft + 1:) = place(bearing%coordinate)
     call bearing%set_unknowns(unknown)
     call solve_at(bearing, newton, target, .false., settings, report, max_iterations)
@@ -286,9 +286,9 @@ contains
     position = bearing%eccentricity()
     call start%save(bearing)
     quick = settings
-    if (.not. bearing%pad(1)%film%flow%upwind) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
+    if (.not. bearing%upwinds()) quick%maximum_steps = min(quick%maximum_steps, galerkin_steps)
     call find_position(bearing, newton, target, quick, report)
-    if (.not. (report%converged() .or. bearing%pad(1)%film%flow%upwind)) then
+    if (.not. (report%converged() .or. bearing%upwinds())) then
       call failed%save(bearing)
       call start%restore(bearing)
       call find_by_upwinding(bearing, newton, target, position, settings, peclet, other)

@@ -125,7 +125,7 @@ contains
     associate (heat => bearing%heat)
       if (heat%sleeve%growth > heat%shaft%growth) return ! a hot bearing may have more clearance
       answer = bearing_answer(bearing, brief=.true.)
-      associate (whole => answer%heat%whole, surface => bearing%pad(1)%film%surface)
+      associate (whole => answer%heat%whole, surface => bearing%mesh%surface)
         film = film_work_type(drag=whole%power, flow=max(whole%leading, whole%trailing, whole%trailing + whole%sides), area=whole%area)
         if (bearing%floats .and. .not. any(bearing%coordinate < axial_coordinate)) then
           film%power = 0.5_wp

@@ -137,7 +137,7 @@ contains
     bearing%point%speed = 0.0_wp
     bearing%shaft_fixed = .true.
     unknown = 0.0_wp
-    call bearing%put_pressure(spread(bearing%pad(1)%film%ambient_pressure, 1, bearing%film_nodes()), unknown)
+    call bearing%put_pressure(spread(bearing%ambient_pressure, 1, bearing%film_nodes()), unknown)
     unknown(bearing%first_shaft + 1:) = position%place(bearing%coordinate)
     call bearing%set_unknowns(unknown)
   end subroutine put_at_rest
@@ -157,11 +157,11 @@ contains
       call find_shapes(scene%bearing, scene%bore, scene%bearing%leading_edge_angle, 1.0_wp, shape)
       free = scene%bearing%clearance*(1.0_wp - scene%bearing%preload) - max(peak_of(shape), 0.0_wp) &
         - bearing%pad(1)%film%interference() - 0.5_wp*scene%bearing%length*norm2(target%place(4:5)) &
-        - bearing%pad(1)%film%surface%sine*target%place(axial_coordinate)
+        - bearing%mesh%surface%sine*target%place(axial_coordinate)
       direction = start_attitude
       if (norm2(target%load(:2)) > 0.0_wp) direction = direction + atan2(target%load(2), target%load(1))
       bearing%point%place(:2) = -eccentricity*max(free, 0.0_wp)*[cos(direction), sin(direction)]
-      if (bearing%pad(1)%contact%present .and. .not. target%speed > 0.0_wp .and. norm2(target%load(:2)) > 0.0_wp) then
+      if (bearing%asperities%present .and. .not. target%speed > 0.0_wp .and. norm2(target%load(:2)) > 0.0_wp) then
         bearing%point%place(:2) = resting_position(bearing, target)
       end if
     end if
@@ -212,7 +212,7 @@ contains
       there%place(:2) = middle*direction
       gap = undeflected_gap(bearing, there)
       smallest = largest_over_ranks([-minval(gap)])
-      force = sum_over_ranks(bearing%film_force(bearing%pad(1)%film%ambient_pressure + contact_pressure(bearing%pad(1)%contact, gap)))
+      force = sum_over_ranks(bearing%film_force(bearing%ambient_pressure + contact_pressure(bearing%asperities, gap)))
       if (smallest(1) < 0.0_wp .and. dot_product(force(1:2), target%load(:2)) < norm2(target%load(:2))**2) then
         near = middle
       else

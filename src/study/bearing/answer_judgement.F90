@@ -91,7 +91,7 @@ contains
       newton%factorizations = newton%factorizations + stability%factorizations
       newton%enlargements = newton%enlargements + stability%enlargements
       call log%judged('stability: '//stability_words(stability, &
-                      bearing%pad(1)%whole%half .and. bearing%pad(1)%foil%moves_against_mirror()), &
+                      bearing%has_mirror_motions()), &
                       stability%found .and. stability%negative + stability%growing == 0)
       if (stability%counted) call add_result(list, 'stability', stability%negative)
       if (stability%found) then

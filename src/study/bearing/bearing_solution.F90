@@ -388,7 +388,7 @@ contains
     integer, allocatable :: way(:)
     integer :: i
 
-    way = bearing%pad(1)%film%surface%motions()
+    way = bearing%mesh%surface%motions()
     way = pack(way, way <= translations)
     words = text(force(way(1)), 5)
     do i = 2, size(way)

@@ -259,7 +259,7 @@ contains
       if (scene%sweep%present) call show_points(scene, record%history, log)
       call show_closing_block(log, summary, converged, place_on_sweep(scene, record%history, converged), answer, &
                               bearing%clearance, result%cost, result%ranks, blas_in_use())
-      call show_film_notes(scene, bearing%pad(1)%film%law, bearing%pad(1)%whole, bearing%point%speed, &
+      call show_film_notes(scene, bearing%pad(1)%film%law, bearing%mesh, bearing%point%speed, &
                            answer%minimum_gap, [answer%minimum_pressure, answer%maximum_pressure], log)
       if (converged .and. answer%has_foils) then
         call show_growth(log, record%judged, neutral*bearing%force_scale()/bearing%clearance, size(bearing%pad) == 1)

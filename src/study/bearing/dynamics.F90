@@ -325,7 +325,7 @@ contains
     type(bearing_system_type), allocatable :: opposite
     type(error_type), allocatable :: error
 
-    if (bearing%pad(1)%whole%half .and. bearing%pad(1)%foil%moves_against_mirror()) then
+    if (bearing%has_mirror_motions()) then
       allocate (opposite)
       call build_opposite(scene, bearing, opposite, error)
       if (allocated(error)) then

@@ -263,8 +263,8 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     logical, intent(out) :: fits
 
-    fits = bearing%local_size() == size(carried%unknown) .and. size(bearing%pad(1)%mesh%mesh_node) == size(carried%node)
-    if (fits) fits = all(bearing%pad(1)%mesh%mesh_node == carried%node)
+    fits = bearing%local_size() == size(carried%unknown) .and. size(bearing%mesh_nodes()) == size(carried%node)
+    if (fits) fits = all(bearing%mesh_nodes() == carried%node)
     fits = .not. any_rank(.not. fits)
   end subroutine compare_nodes
 
@@ -296,8 +296,8 @@ contains
 
     allocate (carried%unknown(bearing%local_size()))
     call bearing%get_unknowns(carried%unknown)
-    carried%node = bearing%pad(1)%mesh%mesh_node
-    carried%upwind = bearing%pad(1)%film%flow%upwind
+    carried%node = bearing%mesh_nodes()
+    carried%upwind = bearing%upwinds()
     carried%place = place_of(bearing)
     carried%value = value
     carried%at = at
