@@ -8,7 +8,9 @@ module gfb_dynamics_record
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
-  use gfb_text, only: exact_text
+  use gfb_film_surface, only: shaft_coordinates, translations, axial_coordinate, journal_motions, &
+                              journal_coordinates
+  use gfb_text, only: exact_text, join
   use gfb_case_file, only: case_array_type, add_array
   implicit none (type, external)
   private
@@ -42,6 +44,12 @@ module gfb_dynamics_record
   character(len=*), parameter :: units(2) = [character(len=36) :: &
     'N/m, N/rad; N m/m, N m/rad', 'N s/m, N s/rad; N m s/m, N m s/rad']
 
+  !> The shaft's coordinates: in names of columns, and as symbols.
+  character(len=4), parameter :: coordinate_names(shaft_coordinates) = &
+    [character(len=4) :: 'x', 'y', 'z', 'phix', 'phiy']
+  character(len=5), parameter :: coordinate_symbols(shaft_coordinates) = &
+    [character(len=5) :: 'e_x', 'e_y', 'e_z', 'phi_x', 'phi_y']
+
   !> At one answer.
   type, public :: dynamics_point_type
     real(wp), allocatable :: frequency(:)          !! [rad/s]
@@ -66,14 +74,23 @@ module gfb_dynamics_record
 
 contains
 
-  !> Names of motions in matrices: of a journal's four, a runner's three, or a cone's five.
-  pure function motion_names(motions) result(names)
-    integer, intent(in) :: motions !! 3, 4 or 5
-    character(len=4), allocatable :: names(:)
+  !> The shaft's coordinates that are motions of a matrix: of a surface that has so many, see
+  !> `motions` of `gfb_film_surface`.
+  pure function coordinates_of(motions) result(coordinate)
+    integer, intent(in) :: motions !! of a journal, a runner, or of a cone, which has all
+    integer, allocatable :: coordinate(:)
+    integer :: i
 
-    names = [character(len=4) :: 'x', 'y', 'z', 'phix', 'phiy']
-    if (motions == 4) names = names([1, 2, 4, 5])
-    if (motions == 3) names = names(3:)
+    coordinate = [(i, i=1, shaft_coordinates)]
+    if (motions == journal_motions) coordinate = journal_coordinates
+    if (motions < journal_motions) coordinate = coordinate(axial_coordinate:)
+  end function coordinates_of
+
+  !> Names of motions in matrices.
+  pure function motion_names(motions) result(names)
+    integer, intent(in) :: motions !! how many there are
+    character(len=4), allocatable :: names(:)
+    names = coordinate_names(coordinates_of(motions))
   end function motion_names
 
   !> Motions of an answer's matrices.
@@ -84,13 +101,23 @@ contains
 
   !> The order of arrays, for their description.
   pure function order_of(motions) result(words)
-    integer, intent(in) :: motions !! 3, 4 or 5
+    integer, intent(in) :: motions
     character(len=:), allocatable :: words
-
-    words = 'frequency, row, column] in the order e_x, e_y, phi_x, phi_y: '
-    if (motions == 3) words = 'frequency, row, column] in the order e_z, phi_x, phi_y: '
-    if (motions == 5) words = 'frequency, row, column] in the order e_x, e_y, e_z, phi_x, phi_y: '
+    words = 'frequency, row, column] in the order '// &
+            join(coordinate_symbols(coordinates_of(motions)), ', ')//': '
   end function order_of
+
+  !> The film's force along the motions that are translations.
+  pure function force_words(motions) result(words)
+    integer, intent(in) :: motions
+    character(len=:), allocatable :: words
+    integer, allocatable :: along(:)
+
+    along = coordinates_of(motions)
+    along = pack(along, along <= translations)
+    words = 'film force ('//join(coordinate_names(along), ', ')//')'
+    if (size(along) == 1) words = 'film force along '//trim(coordinate_names(along(1)))
+  end function force_words
 
   !> K at one of the frequencies.
   pure function stiffness_of(point, i) result(stiffness)
@@ -148,7 +175,7 @@ contains
     integer, intent(in) :: points !! of the record, from the first
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the file
     real(wp), allocatable, dimension(:, :) :: frequency, stiffness, damping
-    character(len=:), allocatable :: axes, force
+    character(len=:), allocatable :: axes
     integer :: i, k, n, motions, entries
 
     if (.not. allocated(record%point)) return
@@ -172,13 +199,10 @@ contains
       stiffness = reshape(stiffness, [entries, n])
       damping = reshape(damping, [entries, n])
     end if
-    force = 'film force (x, y) '
-    if (motions == 3) force = 'film force along z'
-    if (motions == 5) force = 'film force (x, y, z) '
     call add_array(arrays, '/dynamics/frequency', 'rad/s', 'circular frequency of the vibration', &
                    frequency, sweeps)
     call add_array(arrays, '/dynamics/stiffness', trim(units(1)), &
-                   'real part of K + i omega C'//axes//trim(force)// &
+                   'real part of K + i omega C'//axes//force_words(motions)// &
                    ' or torque that brings the shaft back, over its displacement or rotation', &
                    stiffness, sweeps, motions)
     call add_array(arrays, '/dynamics/damping', trim(units(2)), &
@@ -313,7 +337,7 @@ contains
 
   !> Names of a matrix' columns, each behind a comma.
   pure function heads(motions, letter, ending) result(words)
-    integer, intent(in) :: motions !! 4 or 3
+    integer, intent(in) :: motions
     character(len=*), intent(in) :: letter, ending !! of each name
     character(len=:), allocatable :: words
     character(len=4) :: names(motions)

@@ -6,7 +6,7 @@ module gfb_cone_rules
   use gfb_model_case, only: half_width_yes, coupling_partitioned
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
-  use gfb_sweep_case, only: sweep_axial_load
+  use gfb_sweep_case, only: operation_at, sweep_axial_load, sweep_keys
   use gfb_text, only: text
   implicit none (type, external)
   private
@@ -45,6 +45,7 @@ contains
                      'way alone', point)
     end do
     if (.not. scene%model%foil%deflects) call check_shift(keys, scene%bearing, scene%operation)
+    if (scene%general%analysis%floats) call check_loads(keys, scene)
 
   contains
 
@@ -55,6 +56,50 @@ contains
       call keys%rule(group, key, there, 'cannot stand beside half_angle in &bearing yet')
     end subroutine not_beside
   end subroutine check_cone
+
+  !> Warns of an axial load that takes suction, at the operating point or the first one of a sweep.
+  subroutine check_loads(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    type(operation_case_type) :: there
+    integer :: point
+
+    associate (sweep => scene%sweep)
+      if (size(sweep%values) == 0 .or. sweep%parameter == sweep_keys) then
+        if (takes_suction(scene%bearing, scene%operation)) call warn('operation', 'axial_load', &
+                                                                     'is', scene%operation)
+        return
+      end if
+      do point = 1, size(sweep%values)
+        there = operation_at(scene%operation, sweep, point)
+        if (.not. takes_suction(scene%bearing, there)) cycle
+        call warn('sweep', 'values', 'leaves axial_load', there, point)
+        return
+      end do
+    end associate
+
+  contains
+
+    subroutine warn(group, key, how, operation, point)
+      character(len=*), intent(in) :: group, key, how
+      type(operation_case_type), intent(in) :: operation
+      integer, intent(in), optional :: point
+      call keys%warn(group, key, how//' less than tan(half_angle) times the load, '// &
+                     text(tan(scene%bearing%half_angle)*norm2(operation%load), 4)//' N: only a '// &
+                     'film with pressures below ambient carries both', point)
+    end subroutine warn
+  end subroutine check_loads
+
+  !> Whether both loads take pressures below ambient. With p over ambient the film's force is
+  !> \( F_z = \sin\beta \int p \, dA \) along the axis and
+  !> \( F_r = \cos\beta \, | \int p \, e_r \, dA | \) across it: where p is nowhere negative,
+  !> \( F_z \ge F_r \tan\beta \).
+  elemental logical function takes_suction(bearing, operation) result(takes)
+    type(bearing_case_type), intent(in) :: bearing !! a cone
+    type(operation_case_type), intent(in) :: operation
+    takes = operation%axial_load > 0.0_wp .and. &
+            operation%axial_load < tan(bearing%half_angle)*norm2(operation%load)
+  end function takes_suction
 
   !> Without a foil that gives way an axial position leaves a gap all around.
   subroutine check_shift(keys, bearing, operation)
