@@ -27,11 +27,11 @@ module gfb_beam_foil
   use gfb_planar_beam, only: beam_unknowns, beam_mass, beam_section_type, plane_strain_section, linear_beam_stiffness, &
                              bent_beam_stiffness
   use gfb_condensed_piece, only: condensed_piece_type
-  use gfb_foil_surface, only: foil_surface_type
+  use gfb_foil_surface, only: foil_surface_type, nodal_values_type
   use gfb_foil_stress, only: beam_stresses, beam_end_stresses
   use gfb_foil_structure, only: element_section
   use gfb_shell_geometry, only: shell_section_type, node_unknowns
-  use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
+  use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, top_surface, bump_surface
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
   use gfb_top_foil_case, only: top_foil_leading
@@ -179,26 +179,27 @@ contains
   end function beam_own_unknown
 
   !> Displacements of all this rank's nodes of both foils: every node as its station.
-  subroutine beam_displacements(self, unknown, top, bumps)
+  subroutine beam_displacements(self, unknown, moved)
     class(beam_foil_type), intent(in) :: self !! the beam foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
-    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) of top foil and bumps [m], [rad]
+    type(nodal_values_type), allocatable, intent(out) :: moved(:) !! one a surface
 
+    allocate (moved(bump_surface))
     associate (owned => unknown(self%first + self%own_place))
-      top = moved(owned, self%top_number(:, stations_of(self%top)))
-      bumps = moved(owned, self%bump_number(:, stations_of(self%bumps)))
+      moved(top_surface)%value = displaced(owned, self%top_number(:, stations_of(self%top)))
+      moved(bump_surface)%value = displaced(owned, self%bump_number(:, stations_of(self%bumps)))
     end associate
   end subroutine beam_displacements
 
   !> Forces on this rank's nodes as forces on their stations.
-  subroutine beam_forces(self, top, bumps, force)
+  subroutine beam_forces(self, nodal, force)
     class(beam_foil_type), intent(in) :: self !! the beam foil
-    real(wp), intent(in) :: top(:, :), bumps(:, :) !! (5, local nodes) on top foil and bumps [N], [N m]
+    type(nodal_values_type), intent(in) :: nodal(:) !! on each surface
     real(wp), intent(out) :: force(:) !! one a local unknown of the foil, 0 where another rank owns it [N], [N m]
 
     force = 0.0_wp
-    call add_to_stations(top, self%top_number(:, stations_of(self%top)))
-    call add_to_stations(bumps, self%bump_number(:, stations_of(self%bumps)))
+    call add_to_stations(nodal(top_surface)%value, self%top_number(:, stations_of(self%top)))
+    call add_to_stations(nodal(bump_surface)%value, self%bump_number(:, stations_of(self%bumps)))
 
   contains
 
@@ -227,7 +228,7 @@ contains
   end function stations_of
 
   !> Unknowns by their numbers, 0 where they are fixed.
-  pure function moved(owned, number) result(value)
+  pure function displaced(owned, number) result(value)
     real(wp), intent(in) :: owned(:)    !! the foil's unknowns, all of them on one rank
     integer, intent(in) :: number(:, :) !! (5, nodes) from 1; 0: fixed
     real(wp) :: value(size(number, 1), size(number, 2))
@@ -239,7 +240,7 @@ contains
         if (number(k, node) > 0) value(k, node) = owned(number(k, node))
       end do
     end do
-  end function moved
+  end function displaced
 
   !> Stresses of beams.
   function stresses_of_beams(self, surface, moved) result(value)

@@ -17,7 +17,7 @@ module gfb_changed_foil
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_places, only: set_laws
-  use gfb_meshed_foil, only: meshed_foil_type, top_surface, bump_surface
+  use gfb_meshed_foil, only: meshed_foil_type, bump_surface
   implicit none (type, external)
   private
   public :: take_foil_numbers, elastic_work
@@ -83,19 +83,19 @@ contains
   !> Work of the elastic forces of one of the foils, as a scene has it, in this rank's elements.
   !>
   !> Fails where an element is degenerate.
-  subroutine elastic_work(foil, scene, film, of_bumps, moved, work, error)
+  subroutine elastic_work(foil, scene, film, number, moved, work, error)
     class(foil_model_type), intent(in) :: foil !! with meshes of its own, the same ones
     type(scene_type), intent(in) :: scene !! with a key of the foil changed
     type(film_mesh_type), intent(in) :: film !! the film's whole mesh
-    logical, intent(in) :: of_bumps !! of the bump foil, else of the top foil
+    integer, intent(in) :: number !! of the foil's surface
     real(wp), intent(in) :: moved(:, :, 0:) !! (5, local nodes, motions) first that whose forces work [m], [rad]
     real(wp), intent(out) :: work(:) !! on each of the others [J]
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(foil_surface_type), allocatable :: surface(:)
 
     surface = foil%surfaces()
-    associate (one => surface(merge(bump_surface, top_surface, of_bumps)))
-      if (of_bumps) then
+    associate (one => surface(number))
+      if (number == bump_surface) then
         one%mesh = strip_on_pad(scene, film, stations_of(one%mesh))
         one%section = section_of(scene%bump_foil)
       else

@@ -7,8 +7,8 @@ module gfb_largest_stress
   use gfb_shell_element, only: von_mises, von_mises_rates
   use gfb_foil_stress, only: face_stress, find_largest
   use gfb_foil_model, only: foil_model_type
-  use gfb_foil_surface, only: foil_surface_type
-  use gfb_meshed_foil, only: meshed_foil_type, top_surface, bump_surface, from_rest
+  use gfb_foil_surface, only: foil_surface_type, nodal_values_type
+  use gfb_meshed_foil, only: meshed_foil_type, from_rest
   implicit none (type, external)
   private
   public :: find_largest_stress, stress_at, add_stress_rates
@@ -60,16 +60,15 @@ contains
     real(wp), intent(in) :: unknown(:) !! local ones of the pad [SI]
     type(moved_surface_type), allocatable :: list(:)
     type(foil_surface_type), allocatable :: surface(:)
-    real(wp), allocatable :: bumps(:, :)
+    type(nodal_values_type), allocatable :: moved(:)
     integer :: i
 
     surface = foil%surfaces()
     allocate (list(size(surface)))
-    call foil%split_displacements(unknown, list(top_surface)%moved, bumps)
-    if (size(list) >= bump_surface) call move_alloc(bumps, list(bump_surface)%moved)
+    call foil%split_displacements(unknown, moved)
     do i = 1, size(list)
       list(i)%surface = surface(i)
-      list(i)%moved = from_rest(foil, i, surface(i), list(i)%moved)
+      list(i)%moved = from_rest(foil, i, surface(i), moved(i)%value)
     end do
   end function moved_surfaces
 
@@ -114,23 +113,20 @@ contains
     real(wp), intent(in) :: unknown(:) !! local ones of the pad [SI]
     real(wp), intent(inout) :: rate(:) !! one an unknown of the pad, this rank's own ones [Pa/m], [Pa]
     type(moved_surface_type), allocatable :: list(:)
-    real(wp), allocatable :: top(:, :), bumps(:, :), force(:)
+    type(nodal_values_type), allocatable :: slope(:)
+    real(wp), allocatable :: force(:)
+    integer :: i
 
     select type (foil)
     class is (meshed_foil_type)
       list = moved_surfaces(foil, unknown)
-      top = 0.0_wp*list(top_surface)%moved
-      allocate (bumps(size(top, 1), 0))
-      if (size(list) >= bump_surface) bumps = 0.0_wp*list(bump_surface)%moved
-      if (place%element > 0) then
-        if (place%surface == bump_surface) then
-          call differentiate(foil, place, list(bump_surface), bumps)
-        else
-          call differentiate(foil, place, list(top_surface), top)
-        end if
-      end if
+      allocate (slope(size(list)))
+      do i = 1, size(list)
+        slope(i)%value = 0.0_wp*list(i)%moved
+      end do
+      if (place%element > 0) call differentiate(foil, place, list(place%surface), slope(place%surface)%value)
       allocate (force(foil%local_unknowns()))
-      call foil%gather_forces(top, bumps, force)
+      call foil%gather_forces(slope, force)
       associate (mine => rate(foil%first + 1:foil%first + size(force)))
         mine = mine + force
       end associate

@@ -10,7 +10,7 @@ module gfb_meshed_foil
   use gfb_errors, only: error_type
   use gfb_petsc_kinds, only: pint
   use gfb_foil_model, only: foil_model_type
-  use gfb_foil_surface, only: foil_surface_type, surface_motion_type
+  use gfb_foil_surface, only: foil_surface_type, nodal_values_type, surface_motion_type
   implicit none (type)
   private
   public :: both_surfaces, split_motion, from_rest
@@ -50,22 +50,20 @@ module gfb_meshed_foil
   end type meshed_foil_type
 
   abstract interface
-    !> Displacements of all this rank's nodes of both foils, condensed ones recovered. All ranks ask.
-    subroutine split_displacements(self, unknown, top, bumps)
-      import :: meshed_foil_type, wp
+    !> Displacements of all this rank's nodes of each of `surfaces`, condensed ones recovered. All ranks ask.
+    subroutine split_displacements(self, unknown, moved)
+      import :: meshed_foil_type, nodal_values_type, wp
       class(meshed_foil_type), intent(in) :: self !! the foil
-      real(wp), intent(in) :: unknown(:)            !! local unknowns of the bearing, in SI
-      real(wp), allocatable, intent(out) :: top(:, :)   !! (5, local nodes) [m], [rad]
-      real(wp), allocatable, intent(out) :: bumps(:, :) !! the same of the bump foil [m], [rad]
+      real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing, in SI
+      type(nodal_values_type), allocatable, intent(out) :: moved(:) !! one a surface
     end subroutine split_displacements
 
     !> Forces on this rank's nodes as forces on the unknowns: what `split_displacements` does, transposed. All ranks ask.
-    subroutine gather_forces(self, top, bumps, force)
-      import :: meshed_foil_type, wp
+    subroutine gather_forces(self, nodal, force)
+      import :: meshed_foil_type, nodal_values_type, wp
       class(meshed_foil_type), intent(in) :: self !! the foil
-      real(wp), intent(in) :: top(:, :)   !! (5, local nodes) [N], [N m]
-      real(wp), intent(in) :: bumps(:, :) !! the same of the bump foil [N], [N m]
-      real(wp), intent(out) :: force(:)   !! one a local unknown of the foil, 0 where another rank owns it [N], [N m]
+      type(nodal_values_type), intent(in) :: nodal(:) !! on each surface
+      real(wp), intent(out) :: force(:) !! one a local unknown of the foil, 0 where another rank owns it [N], [N m]
     end subroutine gather_forces
 
     !> Stresses of a surface's elements on this rank.
@@ -113,15 +111,15 @@ contains
     list(bump_surface)%has_contacts = .true.
   end function both_surfaces
 
-  !> Displacements of all this rank's nodes of both foils, condensed ones recovered. All ranks ask.
-  subroutine split_motion(foil, unknown, top, bumps)
+  !> Displacements of all this rank's nodes of each surface, condensed ones recovered. All ranks ask.
+  subroutine split_motion(foil, unknown, moved)
     class(foil_model_type), intent(in) :: foil !! with meshes of its own
     real(wp), intent(in) :: unknown(:) !! local ones of the pad, in SI
-    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) of top foil and bumps [m], [rad]
+    type(nodal_values_type), allocatable, intent(out) :: moved(:) !! one a surface
 
     select type (foil)
     class is (meshed_foil_type)
-      call foil%split_displacements(unknown, top, bumps)
+      call foil%split_displacements(unknown, moved)
     end select
   end subroutine split_motion
 
@@ -308,21 +306,21 @@ contains
     moves = .true.
   end function meshed_moves_against_mirror
 
-  !> Displacements and stresses of both foils.
+  !> Displacements and stresses of all surfaces.
   function meshed_motions(self, unknown, modulus) result(list)
     class(meshed_foil_type), intent(in) :: self !! the foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
     real(wp), intent(in) :: modulus(2) !! see `soften`
     type(surface_motion_type), allocatable :: list(:)
     type(foil_surface_type), allocatable :: surface(:)
-    real(wp), allocatable :: bumps(:, :)
+    type(nodal_values_type), allocatable :: moved(:)
     integer :: i
 
     surface = self%surfaces()
     allocate (list(size(surface)))
-    call self%split_displacements(unknown, list(top_surface)%displacement, bumps)
-    if (size(list) >= bump_surface) call move_alloc(bumps, list(bump_surface)%displacement)
+    call self%split_displacements(unknown, moved)
     do i = 1, size(list)
+      call move_alloc(moved(i)%value, list(i)%displacement)
       list(i)%stress = modulus(i)*self%stresses(surface(i), from_rest(self, i, surface(i), list(i)%displacement))
     end do
   end function meshed_motions

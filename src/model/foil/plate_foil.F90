@@ -23,7 +23,7 @@ module gfb_plate_foil
   use gfb_contact_law, only: contact_law_type
   use gfb_contact_point, only: contact_point_type
   use gfb_bump_contacts, only: bump_contact, contact_top
-  use gfb_foil_surface, only: foil_surface_type
+  use gfb_foil_surface, only: foil_surface_type, nodal_values_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure, element_geometry
   use gfb_foil_assembly, only: element_unknowns
   use gfb_foil_builder, only: build_top
@@ -297,25 +297,24 @@ contains
     if (number > 0) number = self%own_place(number - self%top%first)
   end function plate_own_unknown
 
-  !> Displacements of the plate's nodes on this rank; there are no bumps.
-  subroutine plate_displacements(self, unknown, top, bumps)
+  !> Displacements of the plate's nodes on this rank.
+  subroutine plate_displacements(self, unknown, moved)
     class(plate_foil_type), intent(in) :: self !! the plate
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
-    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) [m], [rad]
+    type(nodal_values_type), allocatable, intent(out) :: moved(:) !! of its surface
 
-    call expand(self%top, unknown(self%first + self%own_place), top)
-    allocate (bumps(node_unknowns, 0))
+    allocate (moved(top_surface))
+    call expand(self%top, unknown(self%first + self%own_place), moved(top_surface)%value)
   end subroutine plate_displacements
 
   !> Forces on the plate's nodes as forces on its unknowns.
-  subroutine plate_forces(self, top, bumps, force)
+  subroutine plate_forces(self, nodal, force)
     class(plate_foil_type), intent(in) :: self !! the plate
-    real(wp), intent(in) :: top(:, :)   !! (5, local nodes) [N], [N m]
-    real(wp), intent(in) :: bumps(:, :) !! there are none
-    real(wp), intent(out) :: force(:)   !! one a local unknown, 0 where another rank owns it [N], [N m]
+    type(nodal_values_type), intent(in) :: nodal(:) !! on its surface
+    real(wp), intent(out) :: force(:) !! one a local unknown, 0 where another rank owns it [N], [N m]
 
     force = 0.0_wp
-    call gather(self%top, top, self%own_place, force)
+    call gather(self%top, nodal(top_surface)%value, self%own_place, force)
   end subroutine plate_forces
 
   !> Stresses of the plate.

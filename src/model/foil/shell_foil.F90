@@ -12,7 +12,7 @@ module gfb_shell_foil
   use gfb_shell_element, only: shell_stiffness
   use gfb_shell_mass, only: shell_mass
   use gfb_substructures, only: kind_count
-  use gfb_foil_surface, only: foil_surface_type
+  use gfb_foil_surface, only: foil_surface_type, nodal_values_type
   use gfb_foil_structure, only: foil_structure_type, destroy_foil_structure, element_geometry, element_section, assemble_piece, &
                                 retained_in_piece
   use gfb_foil_assembly, only: element_unknowns, retained_unknowns
@@ -20,7 +20,7 @@ module gfb_shell_foil
   use gfb_condensed_piece, only: condensed_piece_type
   use gfb_foil_stress, only: shell_stresses, shell_corner_stresses
   use gfb_rigid_modes, only: patch_type, find_patches, create_motions
-  use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, bump_surface
+  use gfb_meshed_foil, only: meshed_foil_type, both_surfaces, top_surface, bump_surface
   use gfb_text, only: text
   use gfb_foil_cases, only: gap_of_crest, gap_of_corner
   use gfb_scene, only: scene_type
@@ -211,28 +211,29 @@ contains
   end function shell_own_unknown
 
   !> Displacements of all this rank's nodes of both foils, condensed ones recovered.
-  subroutine shell_displacements(self, unknown, top, bumps)
+  subroutine shell_displacements(self, unknown, moved)
     class(shell_foil_type), intent(in) :: self !! the shell foil
     real(wp), intent(in) :: unknown(:) !! local unknowns of the bearing [SI]
-    real(wp), allocatable, intent(out) :: top(:, :), bumps(:, :) !! (5, local nodes) of top foil and bumps [m], [rad]
+    type(nodal_values_type), allocatable, intent(out) :: moved(:) !! one a surface
     integer :: mine
 
     mine = self%top%part%owned_unknowns
-    call expand(self%top, unknown(self%first + self%own_place(:mine)), top)
-    call expand(self%bumps, unknown(self%first + self%own_place(mine + 1:)), bumps)
+    allocate (moved(bump_surface))
+    call expand(self%top, unknown(self%first + self%own_place(:mine)), moved(top_surface)%value)
+    call expand(self%bumps, unknown(self%first + self%own_place(mine + 1:)), moved(bump_surface)%value)
   end subroutine shell_displacements
 
   !> Forces on this rank's nodes of both foils as forces on the unknowns.
-  subroutine shell_forces(self, top, bumps, force)
+  subroutine shell_forces(self, nodal, force)
     class(shell_foil_type), intent(in) :: self !! the shell foil
-    real(wp), intent(in) :: top(:, :), bumps(:, :) !! (5, local nodes) on top foil and bumps [N], [N m]
+    type(nodal_values_type), intent(in) :: nodal(:) !! on each surface
     real(wp), intent(out) :: force(:) !! one a local unknown of the foil, 0 where another rank owns it [N], [N m]
     integer :: mine
 
     mine = self%top%part%owned_unknowns
     force = 0.0_wp
-    call gather(self%top, top, self%own_place(:mine), force)
-    call gather(self%bumps, bumps, self%own_place(mine + 1:), force)
+    call gather(self%top, nodal(top_surface)%value, self%own_place(:mine), force)
+    call gather(self%bumps, nodal(bump_surface)%value, self%own_place(mine + 1:), force)
   end subroutine shell_forces
 
   !> Forces on one structure's nodes at its owned unknowns.

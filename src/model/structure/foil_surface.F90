@@ -20,6 +20,11 @@ module gfb_foil_surface
     procedure :: owns
   end type foil_surface_type
 
+  !> What there is at a surface's nodes: displacements, or forces.
+  type, public :: nodal_values_type
+    real(wp), allocatable :: value(:, :) !! (5, local nodes) [m], [rad], or [N], [N m]
+  end type nodal_values_type
+
   !> How a surface moved, and what that does to it.
   type, public :: surface_motion_type
     real(wp), allocatable :: displacement(:, :) !! (5, local nodes) [m], [rad]

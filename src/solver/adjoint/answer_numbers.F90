@@ -34,17 +34,17 @@ module gfb_answer_numbers
     type(stress_place_type) :: stress(surfaces) !! of each surface's largest stress; pad 0 where it is not asked for
   end type extreme_nodes_type
 
-  !> How the foils of a pad move.
-  type :: pad_motions_type
-    real(wp), allocatable :: top(:, :, :), bumps(:, :, :) !! (5, local nodes, motions) [m], [rad]
-  end type pad_motions_type
+  !> How a surface of a pad's foils moves.
+  type :: known_motion_type
+    real(wp), allocatable :: moved(:, :, :) !! (5, local nodes, motions) [m], [rad]
+  end type known_motion_type
 
   !> An answer at which equations with other keys are evaluated.
   type, public :: known_answer_type
     real(wp), allocatable :: unknown(:) !! local ones, in SI
     type(extreme_nodes_type) :: nodes   !! of extreme values
-    !> of its pads where foils are meshed: first the answer's own motion, then the adjoints of all quantities
-    type(pad_motions_type), allocatable :: motion(:)
+    !> (surfaces, pads) where foils are meshed: first the answer's own motion, then the adjoints of all quantities
+    type(known_motion_type), allocatable :: motion(:, :)
   end type known_answer_type
 
 contains

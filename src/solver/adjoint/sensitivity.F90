@@ -20,6 +20,7 @@ module gfb_sensitivity
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_foil_surface, only: nodal_values_type
   use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
   use gfb_newton, only: newton_type
   use gfb_corrected_solve, only: solve_corrected
@@ -77,7 +78,7 @@ contains
     PetscErrorCode :: ierr
     integer :: i, k
 
-    allocate (answer%unknown(bearing%local_size()), answer%motion(0))
+    allocate (answer%unknown(bearing%local_size()), answer%motion(0, 0))
     call bearing%get_unknowns(answer%unknown)
     call find_extremes(bearing, derives_stress(scene%sensitivity), answer%nodes)
     number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
@@ -181,7 +182,7 @@ contains
     integer :: k
 
     deallocate (answer%motion)
-    allocate (answer%motion(size(bearing%pad)))
+    allocate (answer%motion(size(bearing%foil_surfaces()), size(bearing%pad)))
     call add_motion(0, answer%unknown)
     do k = 1, size(adjoint)
       if (.not. solved(k)) cycle
@@ -195,19 +196,19 @@ contains
     subroutine add_motion(number, value)
       integer, intent(in) :: number !! 0: the state
       real(wp), intent(in) :: value(:) !! local unknowns
-      real(wp), allocatable :: top(:, :), bumps(:, :)
-      integer :: i
+      type(nodal_values_type), allocatable :: moved(:)
+      integer :: i, surface
 
       do i = 1, size(bearing%pad)
-        associate (pad => bearing%pad(i), motion => answer%motion(i))
-          call split_motion(pad%foil, value(pad%first + 1:pad%last), top, bumps)
-          if (number == 0) then
-            allocate (motion%top(size(top, 1), size(top, 2), 0:size(adjoint)), source=0.0_wp)
-            allocate (motion%bumps(size(bumps, 1), size(bumps, 2), 0:size(adjoint)), source=0.0_wp)
-          end if
-          motion%top(:, :, number) = top
-          motion%bumps(:, :, number) = bumps
+        associate (pad => bearing%pad(i))
+          call split_motion(pad%foil, value(pad%first + 1:pad%last), moved)
         end associate
+        do surface = 1, size(moved)
+          associate (motion => answer%motion(surface, i), now => moved(surface)%value)
+            if (number == 0) allocate (motion%moved(size(now, 1), size(now, 2), 0:size(adjoint)), source=0.0_wp)
+            motion%moved(:, :, number) = now
+          end associate
+        end do
       end do
     end subroutine add_motion
   end subroutine find_motions
@@ -326,26 +327,21 @@ contains
     logical, intent(out) :: valid !! gap and pressure are positive
     type(error_type), allocatable, intent(out) :: error
     real(wp) :: of_pad(size(work))
-    logical :: of_bumps
-    integer :: i
+    integer :: i, surface
 
     call take_numbers(there, bearing)
     call bearing%evaluate_at(bearing%point, bearing%state, residual, valid)
     number = 0.0_wp ! they stay where the foils alone are others
     if (key%acts_on == acts_on_film .or. any(bearing%block%numbers > 0)) number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call take_numbers(scene, bearing)
-    of_bumps = key%group == 'bump_foil'
     if (.not. changes_foils(key)) return
-    do i = 1, size(answer%motion)
-      associate (pad => bearing%pad(i), motion => answer%motion(i))
-        if (of_bumps) then
-          call elastic_work(pad%foil, there, pad%whole, of_bumps, motion%bumps, of_pad, error)
-        else
-          call elastic_work(pad%foil, there, pad%whole, of_bumps, motion%top, of_pad, error)
-        end if
+    surface = merge(bump_surface, top_surface, key%group == 'bump_foil')
+    do i = 1, size(answer%motion, 2)
+      associate (pad => bearing%pad(i))
+        call elastic_work(pad%foil, there, pad%whole, surface, answer%motion(surface, i)%moved, of_pad, error)
+        if (allocated(error)) exit
+        work = work + pad%foil%modulus(surface)*of_pad
       end associate
-      if (allocated(error)) exit
-      work = work + bearing%pad(i)%foil%modulus(merge(bump_surface, top_surface, of_bumps))*of_pad
     end do
     call share_failure(error)
     work = sum_over_ranks(work)
