@@ -248,7 +248,7 @@ contains
         if (self%ending /= '') exit
         if (stop_agreed()) then
           call reason%stopped(' at '//place_in_time(march))
-          if (restart%may_be_written()) then
+          if (restart%may_be_written() .and. march%steps > 0) then ! before the first step there is no past to go on from
             call self%save(scene, restart, log, bearing, newton, record)
             call restart%tell(log, reason%detail)
           end if
