@@ -12,7 +12,7 @@ module gfb_scene
   use gfb_top_foil_case, only: top_foil_case_type, read_top_foil_case
   use gfb_contact_case, only: contact_case_type, read_contact_case, read_shaft_contact_case
   use gfb_motion_cases, only: dynamics_case_type, foil_damping_case_type, periodic_case_type, &
-                              rotor_case_type, unbalance_case_type, transient_case_type, &
+                              rotor_case_type, unbalance_case_type, transient_case_type, mass_off, &
                               read_dynamics_case, analysis_of_state, read_foil_damping_case, &
                               read_periodic_case, read_rotor_case, read_unbalance_case, &
                               read_transient_case
@@ -116,9 +116,11 @@ contains
       ! A mass that whirls moves across the axis, and across it alone.
       scene%dynamics%stability = scene%dynamics%stability .and. .not. scene%bearing%row%moves_along
       call read_sweep_case(keys, scene%sweep, analysis)
+      if (scene%foil_damping%foil_mass == mass_off) needs%weightless = "foil_mass = 'off'"
+      if (.not. scene%dynamics%present) needs%weightless = 'nothing vibrates'
       call read_top_foil_case(keys, scene%top_foil, scene%bearing%row, needs, &
                               scene%model%foil)
-      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs)
+      call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs, scene%model%foil)
       call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, &
                              scene%bearing%row, analysis)
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)

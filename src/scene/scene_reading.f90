@@ -4,7 +4,6 @@ module gfb_scene_reading
   use gfb_kinds, only: wp
   use gfb_foil_cases, only: bump_foil_case_type
   use gfb_case_keys, only: case_keys_type
-  use gfb_motion_cases, only: mass_off
   use gfb_model_case, only: coupling_partitioned
   use gfb_scene, only: scene_type, read_groups
   use gfb_study_cases, only: parameter_type
@@ -130,14 +129,13 @@ contains
     character(len=:), allocatable, intent(out) :: problem !! in words; empty where there is none
 
     call keys%book%look_up_real(key%group, key%name, key%element /= 0, unit, problem)
-    if (problem == '') problem = use_problem(keys, scene, key)
+    if (problem == '') problem = use_problem(keys, key)
     if (problem == '' .and. key%element /= 0) problem = index_problem(keys, key, scene%bump_foil)
   end subroutine look_up
 
   !> Why a key has no effect on the answers of this scene; empty where it has one.
-  function use_problem(keys, scene, named) result(problem)
+  function use_problem(keys, named) result(problem)
     type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
-    type(scene_type), intent(in) :: scene !! what the case file asks for
     type(swept_key_type), intent(in) :: named !! the key, as it was typed
     character(len=:), allocatable :: problem
 
@@ -145,55 +143,10 @@ contains
       problem = key%idle
       if (key%acts_on == acts_on_nothing) then
         problem = 'it does not belong to the bearing, but to how it is computed'
-      else if (key%group == 'bump_foil') then
-        problem = bump_problem(keys, scene, trim(key%name))
-      end if
-      if (key%name == 'density') then
-        if (scene%foil_damping%foil_mass == mass_off) problem = "foil_mass = 'off'"
-        if (.not. scene%dynamics%present) problem = 'nothing vibrates'
       end if
     end associate
     if (problem /= '') problem = named%group//'%'//named%name//' has no effect here: '//problem
   end function use_problem
-
-  !> Why a key of the bumps has no effect; empty where it has one.
-  function bump_problem(keys, scene, key) result(words)
-    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), intent(in) :: key !! of `&bump_foil`
-    character(len=:), allocatable :: words
-
-    words = ''
-    associate (foil => scene%model%foil)
-      if (foil%stiffness_key == '') then
-        words = foil%needs_bumps()
-      else if (.not. keys%meant('model', trim(foil%stiffness_key))) then
-        if (any(key == ['height', 'width '])) then
-          words = 'the stiffness by Walowit-Anno does not depend on it'
-        end if
-      else if (.not. (foil%has_crest_springs .and. &
-                      any(key == ['pitch       ', 'half_length ', 'crest_angles']))) then
-        words = trim(foil%stiffness_key)//' in &model is given'
-      end if
-    end associate
-    if (heat_follows(keys, scene, key)) words = ''
-  end function bump_problem
-
-  !> Whether a default of `&thermal` follows a key of the bumps, whatever foil there is.
-  logical function heat_follows(keys, scene, key) result(follows)
-    type(case_keys_type), intent(in) :: keys !! the keys of the case file, all read
-    type(scene_type), intent(in) :: scene !! what the case file asks for
-    character(len=*), intent(in) :: key !! of `&bump_foil`
-
-    follows = .false.
-    if (.not. scene%thermal%present) return
-    if (scene%thermal%bump_conductance_estimated) then
-      follows = any(key == [character(len=11) :: 'thickness', 'half_length', 'height', 'pitch'])
-    end if
-    if (key /= 'height' .or. .not. scene%thermal%is_cooled()) return
-    follows = follows .or. .not. (keys%meant('thermal', 'channel_conductance') .and. &
-                                  keys%meant('thermal', 'channel_sleeve_conductance'))
-  end function heat_follows
 
   !> Looks the keys up, notes units and values, and complains about those that no answer follows.
   subroutine check_sensitivity(keys, scene)

@@ -8,6 +8,7 @@ module gfb_foil_cases
   use gfb_text, only: text, join
   use gfb_bearing_case, only: bearing_case_type, pad_length, strip_length, strip_ends, &
                               middle_radius
+  use gfb_foil_row, only: foil_row_type
   use gfb_bump_heights, only: crest_gaps, normal_deviations
   use gfb_fixed_lines, only: fixed_line_corner, fixed_line_half_flat
   use gfb_key_effect, only: acts_on_gaps, acts_on_sheets, acts_on_shapes, acts_on_all
@@ -19,6 +20,8 @@ module gfb_foil_cases
             largest_gap, missing_of_bumps
 
   character(len=*), parameter :: group = 'bump_foil'
+  character(len=*), parameter :: walowit_anno = 'the stiffness by Walowit-Anno does not depend '// &
+                                                'on it'
 
   !> A size.
   type :: size_type
@@ -303,15 +306,21 @@ contains
   end subroutine complain_of_sizes
 
   !> Reads the group.
-  subroutine read_bump_foil_case(keys, foil, bearing, needs)
+  subroutine read_bump_foil_case(keys, foil, bearing, needs, model)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(bump_foil_case_type), intent(out) :: foil !! what `&bump_foil` asks for
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     type(needs_type), intent(in) :: needs !! of the analysis
+    type(foil_row_type), intent(in) :: model !! of the foils
     logical :: gaps    !! are given
+    logical :: springs !! have a stiffness of their own
 
+    springs = .false.
+    if (model%stiffness_key /= '') springs = keys%meant('model', trim(model%stiffness_key))
     call keys%start_group(group, required=needs%bumps, optional=.true., &
                           present_in_file=foil%present, acts_on=acts_on_all)
+    if (model%stiffness_key == '') call keys%idle(model%needs_bumps())
+    if (springs) call keys%idle(trim(model%stiffness_key)//' in &model is given')
     call foil%thickness%read_value(keys, needs%bumps)
     call keys%real_key('youngs_modulus', foil%youngs_modulus, 'Pa', "Young's modulus", positive, &
                        needs%bumps, default=no_default, acts_on=acts_on_sheets)
@@ -353,6 +362,15 @@ contains
     call keys%real_list_key('crest_angles', foil%crest_angles, longest_list, 'rad', 'where '// &
                             'the crests under a plate stand, from the leading edge of the pad '// &
                             'on', at_least(0.0_wp), .false., 'from `pitch`')
+    if (needs%weightless /= '') call keys%idle(trim(needs%weightless), 'density')
+    if (model%stiffness_key /= '' .and. .not. springs) then
+      call keys%idle(walowit_anno, 'height')
+      call keys%idle(walowit_anno, 'width')
+    else if (model%has_crest_springs) then ! crests are where they are, whatever springs they have
+      call keys%idle('', 'pitch')
+      call keys%idle('', 'half_length')
+      call keys%idle('', 'crest_angles')
+    end if
     call check_geometry(keys, foil, bearing)
   end subroutine read_bump_foil_case
 

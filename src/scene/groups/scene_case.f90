@@ -27,6 +27,7 @@ module gfb_scene_case
     logical :: mass = .false.     !! its density
     logical :: pitch = .false.    !! more of it than an arc is meshed, and no pad tells the pitch
     logical :: width = .false.    !! of the strip: no bearing tells it
+    character(len=20) :: weightless = '' !! why no answer follows a density; empty: one may
   end type needs_type
 
 contains

@@ -128,8 +128,25 @@ contains
                        'ratio of that shaft', between(-1.0_wp, 0.5_wp), default=no_default, &
                        given=given(3), useless=journal)
     thermal%centrifugal = all(given)
+    if (thermal%present) call follow_bumps(keys, thermal)
     call read_modulus(keys, thermal)
   end subroutine read_thermal_case
+
+  !> Defaults follow sizes of the bumps, whatever foil there is.
+  subroutine follow_bumps(keys, thermal)
+    type(case_keys_type), intent(inout) :: keys
+    type(thermal_case_type), intent(in) :: thermal
+    character(len=*), parameter :: bumps = 'bump_foil'
+    logical :: channel
+
+    channel = thermal%is_cooled() .and. .not. (keys%meant('thermal', 'channel_conductance') .and. &
+                                               keys%meant('thermal', 'channel_sleeve_conductance'))
+    if (channel .or. thermal%bump_conductance_estimated) call keys%idle('', 'height', bumps)
+    if (.not. thermal%bump_conductance_estimated) return
+    call keys%idle('', 'thickness', bumps)
+    call keys%idle('', 'half_length', bumps)
+    call keys%idle('', 'pitch', bumps)
+  end subroutine follow_bumps
 
   !> Young's modulus of the foils over their temperature: a table, or a slope.
   subroutine read_modulus(keys, thermal)

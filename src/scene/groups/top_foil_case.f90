@@ -49,6 +49,7 @@ contains
                        acts_on=acts_on_sheets)
     call keys%real_key('density', foil%density, 'kg/m^3', 'density', positive, needs%top_mass, &
                        default=no_default)
+    if (needs%weightless /= '') call keys%idle(trim(needs%weightless), 'density')
     if (bearing%has_sectors) foil%fixed_edge = top_foil_leading ! where their ramp begins
     call keys%choice_key('fixed_edge', foil%fixed_edge, top_foil_edges, 'where the foil is '// &
                          'fixed; of thrust bearings it is leading by default')

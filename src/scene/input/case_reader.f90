@@ -80,15 +80,18 @@ contains
     end if
   end subroutine start_group
 
-  !> Says why no answer follows the next keys of the group, or one that has been read.
-  subroutine idle(self, why, name)
+  !> Says why no answer follows the next keys of the group, or one that has been read, be it of
+  !> another group.
+  subroutine idle(self, why, name, group)
     class(case_reader_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: why !! empty: answers follow them
     character(len=*), intent(in), optional :: name !! of the key that has been read
+    character(len=*), intent(in), optional :: group !! of that key; default: the present one
     integer :: place
 
     if (present(name)) then
       place = self%book%place_of(self%key%group, name)
+      if (present(group)) place = self%book%place_of(group, name)
       self%book%keys(place)%idle = why
     else
       self%why_idle = why
