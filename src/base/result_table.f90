@@ -111,8 +111,10 @@ module gfb_result_table
       'e_z, of the sleeve relative to the shaft', &
       'of a cone: e_z, of the sleeve relative to the shaft', asked=.true., compared=.true.), &
     result_type('attitude_angle', 'deg', number, bearing, &
-      'from the load to the thinnest film, positive in +theta', &
-      'from the load''s direction to the thinnest film''s, positive in +theta', asked=.true.), &
+      'from the load to the shaft''s centre, -e, positive in +theta', &
+      'from the load''s direction to -e, that of the shaft''s centre, positive in +theta. A '// &
+      'plain, aligned journal is thinnest there; with pads, preload, a bore, foils or a tilt '// &
+      'the log and the pages name the place', asked=.true.), &
     result_type('force_<a>', 'N', number, bearing, '{film} force on the sleeve, <a>', &
       'force of the film, and of solid contact, on the sleeve; in equilibrium equal to `load`', &
       asked=.true.), &

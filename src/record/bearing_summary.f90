@@ -108,8 +108,8 @@ contains
       call add_result(list, 'friction_torque', answer%friction_torque)
       call add_result(list, 'power_loss', answer%power_loss)
       call add_result(list, 'minimum_gap', answer%minimum_gap)
-      call add_result(list, 'minimum_gap_radius', ring%thinnest(1))
-      call add_result(list, 'minimum_gap_angle', ring%thinnest(2))
+      call add_result(list, 'minimum_gap_radius', answer%thinnest(1))
+      call add_result(list, 'minimum_gap_angle', answer%thinnest(2))
       if (ring%sides > 1) then
         call add_result(list, 'opposite_gap', ring%opposite_gap)
         call add_result(list, 'opposite_force', ring%opposite_force)
@@ -286,7 +286,7 @@ contains
     call add_result(list, 'factorizations', factorizations)
   end subroutine add_counts
 
-  !> Angle from the load's direction to that of the thinnest film, in (-pi, pi] [rad].
+  !> Angle from the load's direction to that of the shaft's centre, -e, in (-pi, pi] [rad].
   pure real(wp) function attitude_angle(answer) result(angle)
     type(bearing_answer_type), intent(in) :: answer !! with eccentricity and force
 
@@ -365,8 +365,8 @@ contains
 
     associate (ring => answer%ring)
       call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
-                    '   at radius '//engineering_text(ring%thinnest(1), 'mm', 1.0e3_wp)//', '// &
-                    engineering_text(ring%thinnest(2), 'deg', degrees))
+                    '   at radius '//engineering_text(answer%thinnest(1), 'mm', 1.0e3_wp)//', '// &
+                    engineering_text(answer%thinnest(2), 'deg', degrees))
       call log%line('axial force      '//engineering_text(answer%force(axial), 'N', 1.0_wp)// &
                     '   mean pressure '//engineering_text(answer%force(axial)/ring%area, 'kPa', &
                                                           1.0e-3_wp)//' over ambient')
@@ -417,10 +417,17 @@ contains
   subroutine show_bearing_of_shaft(log, answer)
     type(run_log_type), intent(in) :: log
     type(bearing_answer_type), intent(in) :: answer
+    character(len=:), allocatable :: place
 
+    place = ''
+    if (all(abs(answer%thinnest) < huge(0.0_wp))) then ! of a film that is a number somewhere
+      place = 'at theta = '//text(modulo(answer%thinnest(2)*degrees, 360.0_wp), 4)// &
+              ' deg, z = '//engineering_text(answer%thinnest(1), 'mm', 1.0e3_wp)//'; '
+    end if
     call log%line('minimum gap      '//engineering_text(answer%minimum_gap, 'um', 1.0e6_wp)// &
-                  '   midplane '//engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)// &
-                  ', edge '//engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))
+                  '   '//place//'midplane '// &
+                  engineering_text(answer%minimum_gap_midplane, 'um', 1.0e6_wp)//', edge '// &
+                  engineering_text(answer%minimum_gap_edge, 'um', 1.0e6_wp))
     call log%line(forces_of(answer)//' force       '//pair(answer%force(1:2), 'N', 1.0_wp))
     if (allocated(answer%pad_gap)) call show_pads(log, answer)
     if (answer%has_solid_contact) then
@@ -457,7 +464,7 @@ contains
                   engineering_text(attitude_angle(answer), 'deg', degrees)//'   from '// &
                   forces_of(answer)//' force (in equilibrium the load), at '// &
                   text(direction_of(answer%force(1:2)), 4)// &
-                  ' deg, to the thinnest film, -e, at '// &
+                  ' deg, to the shaft''s centre, -e, at '// &
                   text(direction_of(-answer%place(:2)), 4)//' deg, positive with the rotation')
     call log%line(forces_of(answer)//' torque      '//pair(answer%force(4:5), 'mN m', 1.0e3_wp)// &
                   '   without suction '// &

@@ -86,10 +86,10 @@ def check_capacity(checks, folder):
     checks.below("capacity, springs: it is the load", light["force_x"]/found + 1.0, SAME)
     checks.that("capacity, springs: summary and closing block begin with it", list(light.summary)[:3] == ["analysis", "converged",
                 "load_capacity"] and re.search(r"answer\n-+\nload capacity +(\S+) N ", light.log) is not None)
-    words = r"attitude angle +(\S+) deg   from film force \(in equilibrium the load\), at (\S+) deg, to the thinnest film, -e, at (\S+) deg"
+    words = r"attitude angle +(\S+) deg   from film force \(in equilibrium the load\), at (\S+) deg, to the shaft's centre, -e, at (\S+) deg"
     told = re.search(words, light.log)
-    angle, load, thinnest = map(float, told.groups()) if told else (0.0, 0.0, 999.0)
-    checks.below("capacity, springs: attitude angle from the load's direction to that of the thinnest film", thinnest - load - angle, 0.1)
+    angle, load, centre = map(float, told.groups()) if told else (0.0, 0.0, 999.0)
+    checks.below("capacity, springs: attitude angle from the load's direction to that of the shaft's centre", centre - load - angle, 0.1)
     checks.that("capacity, springs: reached", light["limit_reached"] == above["limit_reached"] == "true")
     si = found/(GU2020.length*(2.0*GU2020.radius)**2*30000.0*numpy.pi/30.0)
     checks.below("coefficient in SI", light["load_capacity_coefficient_si"]/si - 1.0, 1.0e-12)

@@ -26,7 +26,6 @@ module gfb_bearing_answer
   type, public :: ring_answer_type
     logical :: present = .false.
     real(wp) :: area = 0.0_wp          !! of the pads of one side [m2]
-    real(wp) :: thinnest(2) = 0.0_wp   !! radius and angle where the film is thinnest [m], [rad]
     !> of the first pad's top foil, at the inner and outer corner of its trailing edge [m]
     real(wp) :: trailing_deflection(2) = 0.0_wp
     real(wp) :: centre(2) = 0.0_wp     !! of the pressure on pad 1, from its leading edge; 0: none
@@ -46,6 +45,8 @@ module gfb_bearing_answer
     real(wp) :: friction_torque = 0.0_wp           !! that brakes the shaft [N m]
     real(wp) :: power_loss = 0.0_wp                !! [W]
     real(wp) :: minimum_gap = 0.0_wp               !! at the nodes [m]
+    !> z, or radius, and angle where that is; zero where the answer is brief [m], [rad]
+    real(wp) :: thinnest(2) = 0.0_wp
     real(wp) :: minimum_gap_midplane = 0.0_wp      !! at z = 0 [m]
     real(wp) :: minimum_gap_edge = 0.0_wp          !! at both edges [m]
     real(wp) :: maximum_pressure = 0.0_wp          !! [Pa]
@@ -139,6 +140,7 @@ contains
     end if
     answer%power_loss = answer%friction_torque*bearing%point%speed
     answer%minimum_gap = -largest(1)
+    if (whole) answer%thinnest = place_of_gap(bearing, gap, answer%minimum_gap)
     answer%minimum_gap_midplane = -largest(2)
     answer%minimum_gap_edge = -largest(3)
     answer%maximum_pressure = largest(4)
@@ -148,19 +150,18 @@ contains
     answer%maximum_deflection = largest(8)
     if (whole) answer%contact = measures_of(largest(9:), sum(contact, 2))
     if (whole .and. bearing%mesh%surface%is_ring()) then
-      answer%ring = ring_answer(bearing, pressure, gap)
+      answer%ring = ring_answer(bearing, pressure)
       if (answer%has_foils) answer%ring%trailing_deflection = trailing_deflection(bearing, unknown)
       if (answer%ring%sides > 1) call read_other_side(bearing, answer)
     end if
   end function bearing_answer
 
-  !> Where a thrust bearing's film is thinnest, and its pressure centred.
-  function ring_answer(bearing, pressure, gap) result(answer)
+  !> What a thrust bearing's pads are, and where their pressure is centred.
+  function ring_answer(bearing, pressure) result(answer)
     class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: pressure(:) !! at all film nodes [Pa]
-    real(wp), intent(in) :: gap(:)      !! at all film nodes [m]
     type(ring_answer_type) :: answer
-    real(wp) :: moments(3), smallest(1), area(2)
+    real(wp) :: moments(3), area(2)
     integer :: i
 
     answer%present = .true.
@@ -175,8 +176,6 @@ contains
     if (bearing%pad(size(bearing%pad))%film%surface%facing < 0.0_wp) answer%sides = 2
     answer%area = area(2)*bearing%mesh%repeats/answer%sides
     answer%pads = bearing%mesh%repeats*size(bearing%pad)
-    smallest = -largest_over_ranks([-minval(gap)])
-    answer%thinnest = place_of_gap(bearing, gap, smallest(1))
     associate (pad => bearing%pad(1))
       moments = pressure_moments(pad%film, pressure(pad%first_node + 1:pad%last_node))
       moments = sum_over_ranks(moments)
@@ -220,26 +219,31 @@ contains
   end function trailing_deflection
 
   !> Row (radius, or z) and angle of the smallest gap; of places that are alike the last one along
-  !> the motion, and there the outermost.
+  !> the motion, and there the outermost of a thrust bearing, of a journal the one nearest to its
+  !> midplane: an aligned one's film is alike along z.
   function place_of_gap(bearing, gap, smallest) result(place)
     class(bearing_type), intent(in) :: bearing !! pads and shaft
     real(wp), intent(in) :: gap(:)   !! at all film nodes [m]
     real(wp), intent(in) :: smallest !! of all ranks [m]
     real(wp), parameter :: alike = 1.0e-9_wp !! relative, and of angles [1], [rad]
     real(wp) :: place(2) !! [m], [rad]
-    real(wp), dimension(size(gap)) :: radius, angle
+    real(wp), dimension(size(gap)) :: row, outwards, angle
+    real(wp) :: best(1)
     integer :: i
 
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
-        radius(pad%first_node + 1:pad%last_node) = pad%film%axial
+        row(pad%first_node + 1:pad%last_node) = pad%film%axial
         angle(pad%first_node + 1:pad%last_node) = pad%film%angle
       end associate
     end do
+    outwards = row
+    if (.not. bearing%mesh%surface%is_ring()) outwards = -abs(row)
     associate (thinnest => gap <= smallest + alike*abs(smallest)) ! which may be negative
       place(2:) = largest_over_ranks([maxval(angle, thinnest)])
-      place(:1) = largest_over_ranks([maxval(radius, &
-                                             thinnest .and. angle >= place(2) - alike)])
+      best = largest_over_ranks([maxval(outwards, thinnest .and. angle >= place(2) - alike)])
+      place(:1) = largest_over_ranks([maxval(row, thinnest .and. angle >= place(2) - alike &
+                                                .and. outwards >= best(1))])
     end associate
   end function place_of_gap
 

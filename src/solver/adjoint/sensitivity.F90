@@ -134,7 +134,7 @@ contains
     value(power) = number(place_torque)*number(place_speed)
     rate(power, place_torque) = number(place_speed)
     rate(power, place_speed) = number(place_torque)
-    ! from the load's direction to that of the thinnest film
+    ! from the load's direction to that of the shaft's centre, -e
     associate (e => number(place_e:place_e + 1), f => number(place_force:place_force + 1))
       value(attitude) = degrees*atan2(f(2)*e(1) - f(1)*e(2), -f(1)*e(1) - f(2)*e(2))
       square = dot_product(e, e)
