@@ -2,6 +2,7 @@
 """tools/report: one page of one or several results, and what it says of files that are none."""
 
 import html.parser
+import math
 import os
 import pathlib
 import re
@@ -13,8 +14,9 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb.report.glance import glance, sketch  # noqa: E402
-from gfb.report.main import thinnest_pad  # noqa: E402
+from gfb.report.main import read_run, thinnest_pad  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
+from gfb.report.thinnest import place_of_thinnest  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 from slow import slow  # noqa: E402
 
@@ -171,9 +173,44 @@ class ReportTest(unittest.TestCase):
         rows = {words: (verdict, bad) for words, _, verdict, bad in glance(some, case)}
         self.assertEqual((rows["load capacity"], rows["critical mass"]), (("3 times the 5 N of the case", False), ("the rotor brings 0.1 kg: 2.5 times that", False)))
         drawn = sketch(some | row("eccentricity_x", -1.0e-5, "m") | row("eccentricity_y", 0.0, "m"), case)
-        self.assertEqual((len(drawn["pads"]), drawn["thinnest"]), (1, (176.0, 100.0)))
+        self.assertEqual((len(drawn["pads"]), drawn["thinnest"], drawn["centre"][2:]), (1, None, (168.0, 100.0)))
         self.assertAlmostEqual(drawn["load"][2], 70.0)
         self.assertAlmostEqual(drawn["load"][3], 60.0)
+
+    def test_the_thinnest_film_is_drawn_and_named_where_it_is(self):
+        """Three preloaded pads, a bore with waves, a tilt, a thrust bearing: sketch, row, log and the film's own smallest value agree, and
+        a journal's centre is elsewhere."""
+        thrust = {"bearing": {"kind": "thrust", "outer_radius": 0.05, "inner_radius": 0.025}, "pads": {"count": 6, "arc": 0.78}, "ramp": {"part": 0.5, "height": 2.0e-5},
+                  "operation": {"speed_rpm": 40000.0, "axial_load": 200.0, "moment": (0.4, -0.2)},
+                  "model": {"foil": "elastic_foundation", "foundation_stiffness": 1.0e10, "foundation_pressure": "local"}, "mesh": {"circumferential_elements": 12, "radial_elements": 6}}
+        held = {"speed_rpm": 20000.0, "eccentricity": (6.0e-6, 2.0e-6)}
+        scenes = {"pads": {"pads": {"count": 3, "arc": 1.9, "preload": 0.5}}, "waves": {"bore": {"waves": 3, "wave_amplitude": 6.0e-6}},
+                  "tilt": {"operation": held | {"tilt": (2.0e-4, 1.0e-4)}, "scene": {"analysis": "fixed_position"}}, "runner": thrust}
+        for name, groups in scenes.items():
+            result = gfb.run(gfb.Case(SMALL | groups), self.folder, name)
+            run = read_run(self.folder/name, None, pictures=False)
+            film = result.film
+            across = "radius" if name == "runner" else "z"
+            smallest = film.gap.where(film.gap <= film.gap.min()*(1.0 + 1.0e-9), drop=True)
+            turn = {round(math.degrees(float(angle)) % 360.0, 6) for angle in smallest.theta}
+            place, drawn = run["place"], run["sketch"]
+            self.assertIn(round(math.degrees(place.angle) % 360.0, 6), turn, name)
+            self.assertLess(min(abs(place.across - float(one)) for one in smallest[across]), 1.0e-9, name)
+            x, y = drawn["thinnest"][0] - 100.0, 100.0 - drawn["thinnest"][1]
+            self.assertLess(abs(math.remainder(math.atan2(y, x) - place.angle, 2.0*math.pi)), 1.0e-9, name)
+            self.assertAlmostEqual(math.hypot(x, y), 85.0*place.across/0.05 if name == "runner" else 76.0, places=9)
+            log = re.search(r"minimum gap .* at theta = (\S+) deg, z = (\S+) mm" if across == "z" else r"minimum gap .* at radius (?P<across>\S+) mm, (\S+) deg", result.log)
+            angle, far = map(float, log.groups() if across == "z" else reversed(log.groups()))
+            self.assertLess(abs(math.remainder(angle - math.degrees(place.angle), 360.0)), 0.1, result.log)
+            self.assertLess(abs(abs(far) - 1.0e3*abs(place.across)), 0.01, name)
+            rows = {words: verdict for words, _, verdict, _ in run["glance"]}
+            self.assertIn(f"theta = {math.degrees(place.angle) % 360.0:.0f} deg", rows["thinnest film"])
+            self.assertIn(drawn["words"], rows["thinnest film"])
+            if across == "z":
+                apart = math.degrees(math.remainder(math.atan2(-result["eccentricity_y"], -result["eccentricity_x"]) - place.angle, 2.0*math.pi))
+                self.assertGreater(abs(apart), 10.0, name)
+        self.assertIsNone(place_of_thinnest(self.folder/"pads", {"minimum_gap": {"value": 1.0}}), "the film of another state")
+        self.assertIsNone(place_of_thinnest(self.folder/"nothing", {"minimum_gap": {"value": 1.0}}))
 
     @slow
     def test_slow_what_is_no_result(self):

@@ -23,7 +23,7 @@ from typing import Any
 
 from gfb.case import Case, CaseError
 from gfb.members import find_member, run_member
-from gfb.report.glance import carried_by, glance
+from gfb.report.glance import carried_by
 from gfb.report.main import read_run, write_page
 from gfb.results import read_history
 from gfb.tool import draw_into_files, parser_of, say
@@ -216,7 +216,7 @@ def rows_of(parts: Sequence[Part], gfb: str | os.PathLike[str] | None) -> list[t
             why = ": ".join(str(run["summary"][name]["value"]) for name in ("outcome", "reason") if name in run["summary"])
             rows.append((part.question, "no answer", f"{why}; the last state reached is below", True))
         elif part.name == "point":
-            rows += glance(run["summary"], run["used"])
+            rows += run["glance"]
         else:
             rows += ANSWERS[part.name](part.question, run)
     return rows
@@ -286,7 +286,7 @@ def answer_tolerances(question: str, run: dict[str, Any]) -> list[tuple[str, str
 
 def answer_limit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
     """The row of a limit."""
-    rows = [row for row in glance(run["summary"], run["used"]) if row[0] in ("misalignment left", "lift-off speed")]
+    rows = [row for row in run["glance"] if row[0] in ("misalignment left", "lift-off speed")]
     return [(question, answer, verdict, bad) for _, answer, verdict, bad in rows]
 
 

@@ -1,5 +1,5 @@
 """The page's first block: what an engineer asks first, in the units people speak, each with a margin where the case has what it
-is measured against, and a sketch of the bearing with its load and its thinnest film."""
+is measured against, and a sketch of the bearing with its load, the shaft's centre and its thinnest film."""
 
 import math
 
@@ -14,8 +14,8 @@ MOST = 1.0e100  # of a number of a case
 class Results:
     """Results and keys of one run."""
 
-    def __init__(self, summary, case):
-        self.summary, self.case = summary, case
+    def __init__(self, summary, case, place=None):
+        self.summary, self.case, self.place = summary, case, place
 
     def value(self, name):
         """A number; None where there is none."""
@@ -47,10 +47,10 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= MOST
 
 
-def glance(summary, case):
-    """(what, how much, margin or verdict, whether that is a bad one) of one run."""
-    results = Results(summary, case)
-    return [row for question in (film, load, limits, losses, balance, vibrations, rotor, foils, heat) for row in question(results)]
+def glance(summary, case, place=None):
+    """(what, how much, margin or verdict, whether that is a bad one) of one run; place: where its film is thinnest."""
+    results = Results(summary, case, place)
+    return [row for question in (film, centre, load, limits, losses, balance, vibrations, rotor, foils, heat) for row in question(results)]
 
 
 def film(results):
@@ -59,7 +59,9 @@ def film(results):
     if not words:
         return
     where, edge, middle = "", results.value("minimum_gap_edge"), results.value("minimum_gap_midplane")
-    if results.value("minimum_gap_radius") is not None:
+    if results.place:
+        where = results.place.words()
+    elif results.value("minimum_gap_radius") is not None:
         where = f"at radius {1.0e3*results.value('minimum_gap_radius'):.3g} mm, {math.degrees(results.value('minimum_gap_angle') or 0.0):.0f} deg"
     elif edge is not None and middle is not None and max(edge, middle) > 1.02*min(edge, middle):
         where = "at the bearing's edge" if edge < middle else "at the midplane"
@@ -67,6 +69,21 @@ def film(results):
     if rough:
         where += f"{', ' if where else ''}{results.value('minimum_gap')/rough:.3g} times the roughness"
     yield "thinnest film", words, where, False
+
+
+def centre(results):
+    """Where the shaft's centre stands, -e, which is another place than that of the thinnest film."""
+    e, angle = direction(results), results.value("attitude_angle")
+    if e and angle is not None:
+        yield "shaft's centre", f"{1.0e6*e[0]:.4g} um towards {math.degrees(e[1]) % 360.0:.0f} deg", f"attitude angle {angle:.3g} deg from the load", False
+
+
+def direction(results):
+    """How far a journal's centre stands from the sleeve's [m], and where to [rad]; None without one."""
+    e = results.value("eccentricity_x"), results.value("eccentricity_y")
+    if None in e or not math.hypot(*e) > 0.0:
+        return None
+    return math.hypot(*e), math.atan2(-e[1], -e[0])
 
 
 def carried_by(case):
@@ -177,9 +194,10 @@ def heat(results):
 
 # --- the sketch ---
 
-def sketch(summary, case):
-    """Lines of a picture, 200 x 200, x to the right and y up: pads, load and thinnest film; None where there is no film."""
-    results = Results(summary, case)
+def sketch(summary, case, thinnest=None):
+    """Lines of a picture, 200 x 200, x to the right and y up: pads, load, way of the shaft's centre, and thinnest film where its place is
+    known; None where there is no film."""
+    results = Results(summary, case, thinnest)
     count = int(results.key("pads%count", 1) or 1)
     if results.value("minimum_gap") is None or not 0 < count <= MOST_PADS:
         return None
@@ -189,20 +207,22 @@ def sketch(summary, case):
     if ring and not outer:
         return None
     pads: list[str] = []
-    drawn = {"pads": pads, "shaft": not ring, "load": None, "thinnest": None, "ring": ring}
+    drawn = {"pads": pads, "shaft": not ring, "load": None, "thinnest": None, "centre": None, "words": "", "ring": ring}
     inner = 85.0*(results.key("bearing%inner_radius") or 0.5)/outer if ring else 72.0
     for pad in range(count):
         begins = first + 2.0*math.pi*pad/count
         outside = [place(85.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS + 1)]
         inside = [place(inner if ring else 80.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS, -1, -1)]
         pads.append(" ".join(f"{x:.1f},{y:.1f}" for x, y in outside + inside))
-    if ring:
-        at = 85.0*results.value("minimum_gap_radius")/outer
-        drawn["thinnest"] = place(at, results.value("minimum_gap_angle") or 0.0)
-    elif results.value("eccentricity_x") is not None and results.value("eccentricity_y") is not None:
-        e = -results.value("eccentricity_x"), -results.value("eccentricity_y")
-        size = math.hypot(*e)
-        drawn["thinnest"] = place(76.0, math.atan2(e[1], e[0])) if size > 0.0 else None
+    angle = results.value("minimum_gap_angle") if ring else None
+    if thinnest:
+        drawn["thinnest"] = place(85.0*thinnest.across/outer if ring else 76.0, thinnest.angle)
+        drawn["words"] = thinnest.words().removeprefix("at ")
+    elif angle is not None:
+        drawn["thinnest"] = place(85.0*results.value("minimum_gap_radius")/outer, angle)
+    if not ring:
+        moved = direction(results)
+        drawn["centre"] = (*place(0.0, 0.0), *place(68.0, moved[1])) if moved else None
         both = results.pair("operation%load")
         if both and math.hypot(*both) > 0.0:
             drawn["load"] = (*place(8.0, math.atan2(both[1], both[0])), *place(50.0, math.atan2(both[1], both[0])))

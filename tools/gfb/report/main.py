@@ -21,6 +21,7 @@ from gfb.heat import HEATED, balance
 from gfb.program import call, find_program
 from gfb.report.glance import glance, sketch
 from gfb.report.sensitivities import sensitivities
+from gfb.report.thinnest import place_of_thinnest
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
 from gfb.tool import command_beside, draw_into_files, parser_of, say, stop
 
@@ -90,9 +91,10 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
     with reading(path):  # of a file that is not gfb's, too
-        about = {"glance": glance(summary, used), "sketch": sketch(summary, used), "heat": heat_rows(summary),
+        place = place_of_thinnest(stem, summary)
+        about = {"glance": glance(summary, used, place), "sketch": sketch(summary, used, place), "place": place, "heat": heat_rows(summary),
                  "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
-        pad = thinnest_pad(summary)
+        pad = place.pad if place else thinnest_pad(summary)
     drawings = pictures_of(stem, points, shows, curve, pad) if pictures else []
     return about | {
         "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
