@@ -32,7 +32,8 @@ from gfb.files import Unfit  # noqa: E402
 from gfb.gallery.runs import Result  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.report import main as report_main  # noqa: E402
-from gfb.report.glance import glance, sketch  # noqa: E402
+from gfb.report.glance import Results, glance, sketch  # noqa: E402
+from gfb.report.verdict import margins_of, sentence  # noqa: E402
 from gfb.results import SEAL_LENGTH, Unreadable, read_film, read_history, read_summary, seal  # noqa: E402
 from gfb.tool import run  # noqa: E402
 
@@ -341,7 +342,7 @@ class ForeignTest(unittest.TestCase):
         """What a page says first, of a case without a group, or with words, lists and infinities in the place of numbers."""
         groups = {"bearing": ("radius", "length", "clearance", "inner_radius", "outer_radius", "leading_edge_angle"), "operation": ("load", "axial_load", "speed_rpm"),
                   "pads": ("count", "arc", "gap", "first_leading_edge"), "rotor": ("mass",), "shaft_contact": ("roughness",)}
-        names = {name for name in re.findall(r"[\"'](\w+)[\"']", (PROJECT/"tools/gfb/report/glance.py").read_text(encoding="utf-8"))}
+        names = {name for name in re.findall(r"[\"'](\w+)[\"']", "".join((PROJECT/f"tools/gfb/report/{one}.py").read_text(encoding="utf-8") for one in ("glance", "verdict")))}
         results = {name: {"value": 1.0, "unit": "m", "meaning": ""} for name in names}
         others = (None, "words", True, (), (1.0, 2.0, 3.0), ("a", "b"), math.nan, math.inf, 0, -1, 0.0, 1e300, 10**400, 10**9)
         begin = time.perf_counter()
@@ -355,12 +356,14 @@ class ForeignTest(unittest.TestCase):
                         case[f"{group}%{key}"] = other
                     for found in (results, results | {"minimum_gap_radius": results["minimum_gap_radius"] | {"value": "words"}}):
                         self.assertTrue(glance(found, case))
+                        self.assertTrue(sentence(margins_of(Results(found, case))))
                         sketch(found, case)
         for name in results:
             for other in ("words", math.nan, math.inf):
                 changed = results | {name: results[name] | {"value": other}}
                 for found in (changed, {one: row for one, row in results.items() if one != name}):
                     glance(found, case)
+                    sentence(margins_of(Results(found, case)))
                     sketch(found, case)
         self.assertLess(time.perf_counter() - begin, 60.0)
 

@@ -13,10 +13,11 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
-from gfb.report.glance import glance, sketch  # noqa: E402
-from gfb.report.main import read_run, thinnest_pad  # noqa: E402
+from gfb.report.glance import Results, glance, sketch  # noqa: E402
+from gfb.report.main import read_run, thinnest_pad, write_page  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
-from gfb.report.thinnest import place_of_thinnest  # noqa: E402
+from gfb.report.thinnest import Place, place_of_thinnest  # noqa: E402
+from gfb.report.verdict import Margin, margins_of, not_computed, plain, sentence  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 from slow import slow  # noqa: E402
 
@@ -108,7 +109,8 @@ class ReportTest(unittest.TestCase):
         self.assertEqual((page.open, page.broken), ([], []))
         words = " ".join(" ".join(page.words).split())
         self.assertIn("No answer was found", words)
-        self.assertRegex(words, r"Last state reached load , .*thinnest film")
+        self.assertIn("No answer was found", said)
+        self.assertRegex(words, r"Last state reached ○ thinnest film, theta = \S+ deg.* load .*thinnest film")
         self.assertRegex(words, r"bearing%clearance 2\.5e-05")
 
     def test_the_most_influential_key_stands_first(self):
@@ -176,6 +178,64 @@ class ReportTest(unittest.TestCase):
         self.assertEqual((len(drawn["pads"]), drawn["thinnest"], drawn["centre"][2:]), (1, None, (168.0, 100.0)))
         self.assertAlmostEqual(drawn["load"][2], 70.0)
         self.assertAlmostEqual(drawn["load"][3], 60.0)
+
+    def test_a_verdict_stands_first(self):
+        """What limits, and by how much; the nearest of what is kept; and what has no limit, or was not computed."""
+        def row(name, value, unit):
+            return {name: {"value": value, "unit": unit, "meaning": ""}}
+
+        def verdict(some, groups, **more):
+            found = Results(some, gfb.Case(SMALL | groups), Place(3.0, 0.0))
+            margins = margins_of(found, **more)
+            return sentence(margins, "", not_computed(found, margins)), {(one.subject, one.sign) for one in margins}
+
+        film, mass, wanted = row("minimum_gap", 4.0e-6, "m"), row("critical_mass", 0.25, "kg"), {"capacity": {"smallest_gap": 5.0e-6}}
+        words, signs = verdict(film, {})
+        self.assertEqual(words, "No limit is known for film: thinnest film 4 um at theta = 172 deg, z = 0 mm. Not computed: whirl, misalignment, temperature.")
+        self.assertEqual(signs, {("film", "? no limit known")})
+        words, signs = verdict(film | mass | row("load_capacity", 30.0, "N"), {"rotor": {"mass": 0.1}})
+        self.assertTrue(words.startswith("All known limits are kept; load is nearest to its own: load capacity 30 N, the load is 20 N: 1.5 times what is needed. "
+                                         "No limit is known for film."), words)
+        self.assertEqual(signs, {("film", "? no limit known"), ("load", "✓ kept"), ("whirl", "✓ kept")})
+        words, signs = verdict(film | mass, wanted | {"rotor": {"mass": 0.5}})
+        self.assertTrue(words.startswith("Whirl limits this bearing: critical mass 0.25 kg, the rotor has 0.5 kg: 0.5 of what is needed. Broken, too: film."), words)
+        self.assertEqual(signs, {("film", "✗ broken"), ("whirl", "✗ broken")})
+        words, _ = verdict(film | row("growth_rate", 2.0, "1/s") | row("damping_ratio", -0.01, "1") | row("whirl_frequency", 200.0*math.pi, "rad/s"), {}, smallest_gap=3.0e-6)
+        self.assertTrue(words.startswith("Whirl limits this bearing: rotor's least damped mode at 100 Hz, it grows with a damping ratio of -0.01."), words)
+        words, _ = verdict(film, {}, smallest_gap=2.0e-6)
+        self.assertTrue(words.startswith("The one known limit is kept, that of film: thinnest film 4 um at theta = 172 deg, z = 0 mm, 2 um are wanted: 2 times"), words)
+        for touch_down, sign in ((2.0e-9, "? no limit known"), (5.0e-6, "✗ broken")):  # the solver's own, and one of the case
+            self.assertEqual(verdict(film, {"solver": {"touch_down_gap": touch_down}})[1], {("film", sign)})
+        swept = row("onset_speed_rpm", 3.0e4, "rpm") | row("growth_rate", 2.0, "1/s")
+        words, signs = verdict(film | swept, {"sweep": {"parameter": "speed_rpm", "values": (1.0e4, 4.0e4)}})
+        self.assertTrue(words.startswith("The one known limit is kept, that of whirl: onset of whirl at 30,000 rpm, the speed is 20,000 rpm: 1.5 times"), words)
+        self.assertEqual(signs, {("film", "? no limit known"), ("whirl", "✓ kept")})
+        hot = row("maximum_film_temperature", 373.15, "K") | row("maximum_top_foil_stress", 2.0e8, "Pa")
+        self.assertIn("No limit is known for temperature, stress.", verdict(film | hot, wanted)[0])
+        self.assertEqual(margins_of(Results(film, gfb.Case(SMALL | {"scene": {"analysis": "load_capacity"}} | wanted))), [])
+        self.assertEqual(sentence([Margin("film", "4 um")], "No answer was found."), "No answer was found.")
+
+    def test_page_and_terminal_begin_with_the_same_words(self):
+        runs = [read_run(self.folder/name, None, pictures=False) for name in ("first", "second")]
+        page = Page(write_page(runs, self.folder/"both.html").read_text(encoding="utf-8"))
+        words = " ".join(" ".join(page.words).split())
+        watts = self.first["power_loss"], runs[1]["summary"]["power_loss"]["value"]
+        self.assertIn(f"Power loss of the 2 cases together: {sum(watts):.4g} W", words)
+        for line in plain(runs).splitlines():
+            self.assertIn(line.replace("first: ", "first : ").replace("second: ", "second : "), words)
+        self.assertLess(words.index("No limit is known for film"), words.index("thinnest film", words.index("Answer")))
+        self.assertRegex(words, r"project small & <rigid> case first, second computed \d{4}-\d\d-\d\d gfb \d+\.\d+\S* \S+ made by checked, date")
+
+    def test_stiffness_has_its_frequency(self):
+        """All entries of K and C, at the first frequency."""
+        case = gfb.Case(SMALL | {"dynamics": {"frequencies": (200.0*math.pi, 600.0)}})
+        case["scene%analysis"] = "linear_dynamics"
+        found = gfb.run(case, self.folder, "dynamic")
+        rows = {words: (value, verdict) for words, value, verdict, _ in read_run(self.folder/"dynamic", None, pictures=False)["glance"]}
+        for words, scale in (("stiffness", 1.0e-6), ("damping", 1.0e-3)):
+            for axes in ("xx", "xy", "yx", "yy"):
+                self.assertIn(f"{axes} {scale*found[f'{words}_{axes}']:.4g}", rows[words][0])
+            self.assertEqual(rows[words][1], "at 100 Hz, 0.3 times the speed")
 
     def test_the_thinnest_film_is_drawn_and_named_where_it_is(self):
         """Three preloaded pads, a bore with waves, a tilt, a thrust bearing: sketch, row, log and the film's own smallest value agree, and

@@ -18,13 +18,14 @@ import re
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gfb.case import Case, CaseError
 from gfb.members import find_member, run_member
-from gfb.report.glance import carried_by
+from gfb.report.glance import Results, carried_by
 from gfb.report.main import read_run, write_page
+from gfb.report.verdict import ONSET, Margin, compared, margins_of, not_computed, sentence
 from gfb.results import read_history
 from gfb.tool import draw_into_files, parser_of, say
 
@@ -65,6 +66,8 @@ class Design:
     rows: list[tuple[str, str, str, bool]]  # question, answer, margin or verdict, whether that is a bad one
     folder: pathlib.Path
     name: str
+    margins: list[Margin]
+    verdict: str              # what limits the bearing, in a sentence
 
     def table(self) -> str:
         """The answers as a Markdown table."""
@@ -76,7 +79,7 @@ class Design:
     def page(self, gfb: str | os.PathLike[str] | None = None) -> pathlib.Path:
         """Writes the page of the study."""
         runs = [read_run(part.stem, gfb, title=part.question, curve=part.name != "point") for part in self.parts if part.stem]
-        return write_page(runs, self.folder/f"{self.name}.html", self.rows, self.name)
+        return write_page(runs, self.folder/f"{self.name}.html", self.rows, self.name, self.margins, self.verdict)
 
 
 def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "design", smallest_gap: float | None = None, grade: float = GRADE,
@@ -114,7 +117,11 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
 
     with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
         list(pool.map(lambda both: compute(*both), todo))
-    return Design(parts, rows_of(parts, gfb), folder, name)
+    runs = {part.name: read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")} for part in parts if part.stem}
+    margins = margins_of_parts(parts, runs, gap_of(case, smallest_gap))
+    point = runs.get("point")
+    left = not_computed(Results(point["summary"], point["used"]), margins) if point else []
+    return Design(parts, rows_of(parts, runs), folder, name, margins, sentence(margins, open_questions=left))
 
 
 def tell_tilt(case: Case, point: dict[str, Any], tell: Callable[[str], None]) -> None:
@@ -134,7 +141,7 @@ def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]
     """All parts of the study; the first one is the operating point."""
     thrust = case.is_thrust()
     speed = float(case["operation%speed_rpm"])
-    gap = smallest_gap or (float(case["capacity%smallest_gap"]) if "capacity%smallest_gap" in case else SMALLEST_GAP)
+    gap = gap_of(case, smallest_gap)
     whirl = "whirl over the speed" if "rotor%mass" in case else "critical mass over the speed"
     parts = [with_analysis(case, "point", "at the operating point", "linear_dynamics", ("dynamics", "rotor", "foil_damping"))]
     if thrust:
@@ -159,6 +166,11 @@ def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]
             "parameter": "speed_rpm", "values": tuple(part*speed for part in WHIRL_SPEEDS)}))
     parts += [orbit_of(case, grade, speed, thrust), tolerances_of(case)]
     return parts
+
+
+def gap_of(case: Case, smallest_gap: float | None) -> float:
+    """The film at which a limit is reached [m]."""
+    return smallest_gap or (float(case["capacity%smallest_gap"]) if "capacity%smallest_gap" in case else SMALLEST_GAP)
 
 
 def with_analysis(case: Case, name: str, question: str, analysis: str, kept: Sequence[str] = (), **groups: dict[str, Any]) -> Part:
@@ -204,14 +216,14 @@ def without_idle_keys(case: Case, complaint: str) -> bool:
 
 # --- the answers ---
 
-def rows_of(parts: Sequence[Part], gfb: str | os.PathLike[str] | None) -> list[tuple[str, str, str, bool]]:
+def rows_of(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]]) -> list[tuple[str, str, str, bool]]:
     """Question, answer, margin and whether it is a bad one, of all parts."""
     rows = []
     for part in parts:
         if part.stem is None:
             rows.append((part.question, "left out", part.left_out, False))
             continue
-        run = read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")}
+        run = runs[part.name]
         if not run["converged"]:
             why = ": ".join(str(run["summary"][name]["value"]) for name in ("outcome", "reason") if name in run["summary"])
             rows.append((part.question, "no answer", f"{why}; the last state reached is below", True))
@@ -220,6 +232,40 @@ def rows_of(parts: Sequence[Part], gfb: str | os.PathLike[str] | None) -> list[t
         else:
             rows += ANSWERS[part.name](part.question, run)
     return rows
+
+
+def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], gap: float) -> list[Margin]:
+    """The margins of all parts with an answer: those of a run, and of directions and speeds the worst, or that at the case's speed."""
+    found: list[Margin] = []
+    for part in parts:
+        run = runs.get(part.name)
+        if run is None or part.name == "tolerances":
+            continue
+        if not run["converged"]:
+            found.append(Margin(part.name.replace("_", "-"), part.question, "no answer", None, True))
+        elif part.name == "directions":
+            angles, films = column(run, "load_angle"), column(run, "minimum_gap")
+            worst = min(range(len(films)), key=films.__getitem__)
+            found.append(compared("film", f"thinnest film {1.0e6*films[worst]:.4g} um under a load at {angles[worst] % 360.0:.0f} deg",
+                                  f"{1.0e6*gap:.3g} um are wanted", films[worst]/gap, "load from every direction"))
+        elif part.name == "capacity":
+            wanted, there = carried_by(run["used"]), at_own_speed(run)
+            capacity = column(run, "load_capacity")[there]
+            if wanted:
+                found.append(compared("load", f"load capacity {capacity:.4g} N at {column(run, 'speed_rpm')[there]:,.0f} rpm", f"the load is {wanted:.4g} N",
+                                      capacity/wanted))
+        elif part.name == "whirl":  # of its own speed the operating point tells
+            found += [one for one in run["margins"] if one.value.startswith(ONSET)]
+        else:
+            own = margins_of(Results(run["summary"], run["used"], run["place"]), gap)
+            found += own if part.name == "point" else [dataclasses.replace(one, where=part.question) for one in own]
+    return found
+
+
+def at_own_speed(run: dict[str, Any]) -> int:
+    """The point of a sweep that is nearest to the case's speed."""
+    speeds, own = column(run, "speed_rpm"), float(run["used"]["operation%speed_rpm"])
+    return min(range(len(speeds)), key=lambda i: abs(speeds[i] - own))
 
 
 def column(run: dict[str, Any], name: str) -> list[float]:
@@ -238,8 +284,7 @@ def answer_directions(question: str, run: dict[str, Any]) -> list[tuple[str, str
 def answer_capacity(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
     """Capacities over the speed, and the margin at that of the case."""
     speeds, loads = column(run, "speed_rpm"), column(run, "load_capacity")
-    wanted, own = carried_by(run["used"]), float(run["used"]["operation%speed_rpm"])
-    there = min(range(len(speeds)), key=lambda i: abs(speeds[i] - own))
+    wanted, there = carried_by(run["used"]), at_own_speed(run)
     margin = f"{loads[there]/wanted:.3g} times the {wanted:.4g} N of the case" if wanted else ""
     others = ", ".join(f"{load:.4g} N at {speed:,.0f}" for speed, load in zip(speeds, loads))
     return [(question, f"{loads[there]:.4g} N at {speeds[there]:,.0f} rpm", margin, bool(wanted) and loads[there] < wanted),
@@ -314,6 +359,7 @@ def main() -> int:
     except CaseError as error:
         print(error, file=sys.stderr)
         return 1
+    print(f"{found.verdict}\n")
     print(found.table())
     print(f"written: {found.page(options.gfb)}")
     return 0

@@ -14,8 +14,10 @@ MOST = 1.0e100  # of a number of a case
 class Results:
     """Results and keys of one run."""
 
-    def __init__(self, summary, case, place=None):
-        self.summary, self.case, self.place = summary, case, place
+    def __init__(self, summary, case, place=None, frequency=None):
+        self.summary, self.case = summary, case
+        self.place = place          # of the thinnest film
+        self.frequency = frequency  # of stiffness and damping [rad/s]
 
     def value(self, name):
         """A number; None where there is none."""
@@ -47,9 +49,10 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= MOST
 
 
-def glance(summary, case, place=None):
-    """(what, how much, margin or verdict, whether that is a bad one) of one run; place: where its film is thinnest."""
-    results = Results(summary, case, place)
+def glance(summary, case, place=None, frequency=None):
+    """(what, how much, margin or verdict, whether that is a bad one) of one run; place: where its film is thinnest; frequency: of its
+    stiffness and damping [rad/s]."""
+    results = Results(summary, case, place, frequency)
     return [row for question in (film, centre, load, limits, losses, balance, vibrations, rotor, foils, heat) for row in question(results)]
 
 
@@ -143,16 +146,26 @@ def balance(results):
 
 
 def vibrations(results):
-    """Stiffness, and the mass that whirls."""
-    stiffness = [results.value(f"stiffness_{axes}") for axes in ("xx", "yy", "zz") if results.value(f"stiffness_{axes}") is not None]
-    if stiffness:
-        yield "stiffness", ", ".join(f"{1.0e-6*value:.4g}" for value in stiffness) + " MN/m", \
-            "along " + ("x, y" if len(stiffness) > 1 else "the axis"), False
+    """All stiffness and damping with the frequency that they hold for, and the mass that whirls."""
+    for words, scale, unit in (("stiffness", 1.0e-6, "MN/m"), ("damping", 1.0e-3, "kN s/m")):
+        there = [(axes, results.value(f"{words}_{axes}")) for axes in ("xx", "xy", "yx", "yy", "zz")]
+        there = [(axes, value) for axes, value in there if value is not None]
+        if there:
+            yield words, ", ".join(f"{axes} {scale*value:.4g}" for axes, value in there) + f" {unit}", held_at(results), False
     critical, mass = results.value("critical_mass"), results.key("rotor%mass")
     if critical is not None:
         margin = f"the rotor brings {mass:.4g} kg: {'it whirls' if mass > critical else f'{critical/mass:.3g} times that'}" if mass \
             else "a heavier rotor whirls"
         yield "critical mass", f"{critical:.4g} kg", margin, bool(mass) and mass > critical
+
+
+def held_at(results):
+    """The frequency of stiffness and damping, in words; empty where it is not known."""
+    frequency = results.frequency
+    if frequency is None:
+        return ""
+    speed = results.key("operation%speed_rpm")
+    return f"at {frequency/(2.0*math.pi):.4g} Hz" + (f", {frequency/(speed*math.pi/30.0):.3g} times the speed" if speed and "sweep" not in results.case.groups else "")
 
 
 def rotor(results):

@@ -14,14 +14,16 @@ import subprocess
 import tempfile
 
 import jinja2
+import numpy
 
 from gfb.case import Case
 from gfb.files import fresh
 from gfb.heat import HEATED, balance
 from gfb.program import call, find_program
-from gfb.report.glance import glance, sketch
+from gfb.report.glance import Results, glance, sketch
 from gfb.report.sensitivities import sensitivities
 from gfb.report.thinnest import place_of_thinnest
+from gfb.report.verdict import margins_of, not_computed, plain, sentence, total_power
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
 from gfb.tool import command_beside, draw_into_files, parser_of, say, stop
 
@@ -50,20 +52,34 @@ def main():
         stop(f"{error.filename or error}: there is no such result")
     except Unreadable as error:
         stop(str(error))
+    print(plain(runs))
     print(f"written: {write_page(runs, output)}")
     return 0
 
 
-def write_page(runs, output, study=(), heading=""):
-    """Writes the page of some runs; study: rows as `glance` has them, which stand before all, and its heading."""
-    page = PAGE.get_template("page.html").render(runs=runs, study=study, heading=heading, answer=answer_rows(runs), keys=key_rows(runs),
-                                                 origin=origin_rows(runs))
+def write_page(runs, output, study=(), heading="", margins=(), verdict=""):
+    """Writes the page of some runs; study: rows as `glance` has them, which stand before all, its heading, its margins and verdict."""
+    page = PAGE.get_template("page.html").render(runs=runs, study=study, heading=heading, verdict=verdict, margins=margins,
+                                                 groups=[("", margins)] if study else [(run["name"], run["margins"]*run["converged"]) for run in runs],
+                                                 total=total_power(runs) if not study else "", block=title_block(runs, heading),
+                                                 answer=answer_rows(runs), keys=key_rows(runs), origin=origin_rows(runs))
     try:
         with fresh(output) as place:
             place.write_text(page, encoding="utf-8")
     except OSError as error:
         stop(f"{output}: {error.strerror}", 3)
     return output
+
+
+def title_block(runs, heading=""):
+    """What a drawing's title block has, of whoever signs: project, case, date and version."""
+    def together(values, between=", "):
+        return between.join(dict.fromkeys(filter(None, values)))
+
+    titles = [str(run["used"].groups.get("scene", {}).get("title", "")) for run in runs]
+    return [("project", titles[0].removesuffix(f": {runs[0]['title']}") if heading else together(titles, "; ")), ("case", heading or together(run["name"] for run in runs)),
+            ("computed", together(run["origin"].get("date", "")[:10] for run in runs)),
+            ("gfb", together(" ".join(filter(None, (run["origin"].get("program_version"), run["origin"].get("commit", "")))) for run in runs))]
 
 
 def stem_of(name):
@@ -90,15 +106,19 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         shows += ["campbell"]*("speed_rpm" in table and "dynamics/mode_frequency" in file)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
+        frequency = float(numpy.atleast_2d(file["dynamics/frequency"][...])[-1, 0]) if "dynamics/frequency" in file else None
     with reading(path):  # of a file that is not gfb's, too
         place = place_of_thinnest(stem, summary)
-        about = {"glance": glance(summary, used, place), "sketch": sketch(summary, used, place), "place": place, "heat": heat_rows(summary),
+        found = Results(summary, used, place)
+        margins = margins_of(found)
+        about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency), "sketch": sketch(summary, used, place), "place": place, "heat": heat_rows(summary),
                  "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
         pad = place.pad if place else thinnest_pad(summary)
     drawings = pictures_of(stem, points, shows, curve, pad) if pictures else []
+    why = "" if converged else ended(summary)
     return about | {
-        "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
-        "converged": converged, "ended": "" if converged else ended(summary), "heads": heads, "rows": rows if points > 1 else [], "left_out": max(0, points - MOST_ROWS),
+        "verdict": sentence(margins, why, about["open_questions"]), "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
+        "converged": converged, "ended": why, "heads": heads, "rows": rows if points > 1 else [], "left_out": max(0, points - MOST_ROWS),
         "case_file": case_file, "used": used, "origin": origin, "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
 
 

@@ -4,6 +4,7 @@ from nicegui import run as workers
 from nicegui import ui
 
 from gfb.report.main import PAGE, answer_rows, key_rows
+from gfb.report.verdict import total_power
 from gfb.results import Unreadable
 from gfb.studio import pictures
 from gfb.studio.runs import Refused
@@ -63,6 +64,9 @@ class ResultsView:
             return
         runs = list(self.found.values())
         with self.room:
+            together = total_power(runs)
+            if together:
+                ui.label(together)
             with ui.element("div").classes("beside"):
                 for number, run in enumerate(runs):
                     show_answer(run, number)
@@ -119,10 +123,16 @@ def show_answer(run, number):
     with ui.card().classes("result"):
         ui.label(run["name"]).classes("brand")
         ui.label(str(run["title"]))
-        if not run["converged"]:
-            ui.label(run["ended"]).classes("mistake")
-        elif run["rows"]:
-            ui.label("Of the last point or load step.")
+        broken = not run["converged"] or any(one.is_broken for one in run["margins"])
+        ui.label(run["verdict"]).classes("sentence" + " bad"*broken)
+        if run["converged"]:
+            if run["rows"]:
+                ui.label("Of the last point or load step.")
+            with ui.element("div").classes("margins"):
+                for one in run["margins"]:
+                    ui.label(f"{one.subject}: {one.value}")
+                    ui.label(", ".join(filter(None, (one.limit, one.times))))
+                    ui.label(one.sign).classes(f"sign {one.state}")
         with ui.element("div").classes("glance"):
             if run["sketch"]:
                 ui.html(PAGE.get_template("sketch.html").render(run=run, number=number), sanitize=False).classes("sketch")

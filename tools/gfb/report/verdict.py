@@ -1,0 +1,201 @@
+"""What limits a bearing and by how much: the sentence with which the page of a run, of several, of a study, the studio and the terminal begin,
+and the margins behind it. A limit is one that the case or the study gives, or that the bearing's own stability sets; where there is none,
+that is said."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from gfb.report.glance import KELVIN, Results, carried_by
+
+OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
+AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
+ONSET = "onset of whirl at"
+SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known"}
+
+
+@dataclasses.dataclass
+class Margin:
+    """One thing that may limit a bearing."""
+
+    subject: str                   # one word of SUBJECTS
+    value: str                     # how it is, in words
+    limit: str = ""                # against what, in words; empty where none is known
+    factor: float | None = None    # how many times the limit is kept, below 1 broken; None: it is, or is not
+    is_broken: bool = False
+    where: str = ""                # part of a study
+
+    @property
+    def state(self) -> str:
+        """Which of SIGNS."""
+        return "broken" if self.is_broken else "kept" if self.limit else "unknown"
+
+    @property
+    def sign(self) -> str:
+        """The state in words, which need no colour."""
+        return SIGNS[self.state]
+
+    @property
+    def times(self) -> str:
+        """The margin in words."""
+        return f"{self.factor:.3g} times" if self.factor is not None else ""
+
+    def words(self) -> str:
+        """All of it."""
+        needed = "" if self.factor is None else f": {self.factor:.3g} {'of' if self.is_broken else 'times'} what is needed"
+        return f"{self.value}{f' ({self.where})' if self.where else ''}, {self.limit}{needed}"
+
+
+def compared(subject: str, value: str, limit: str, factor: float, where: str = "") -> Margin:
+    """What is kept by a factor of 1 and more."""
+    return Margin(subject, value, limit, factor, not factor >= 1.0, where)
+
+
+def margins_of(results: Results, smallest_gap: float | None = None) -> list[Margin]:
+    """All margins of one run; smallest_gap: a film that a study wants [m]."""
+    found = list(film(results, smallest_gap))
+    for question in (load, lift_off, whirl, foils, misalignment, temperature, stress):
+        found += question(results)
+    return at_last_point(found) if "sweep" in results.case.groups else found
+
+
+def at_last_point(margins: list[Margin]) -> list[Margin]:
+    """Those of a sweep: an onset is of all points, and stands for the whirl of the last one, which may lie beyond the case's speed."""
+    onset = [one for one in margins if one.value.startswith(ONSET)]
+    others = [one for one in margins if one not in onset and not (onset and one.subject == "whirl")]
+    return [*onset, *(dataclasses.replace(one, where="at the last point") for one in others)]
+
+
+def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
+    """The thinnest film, of a shaft that moves the thinnest of all time."""
+    over_time = results.value("minimum_gap_over_time")
+    gap = results.value("minimum_gap") if over_time is None else over_time
+    if gap is None or results.case.get("scene%analysis") in AT_LIMIT:
+        return
+    words = f"thinnest film {1.0e6*gap:.4g} um" + (f" {results.place.words()}" if results.place and over_time is None else "")
+    clearance, touch_down = results.key("bearing%clearance", 0.0) or 0.0, results.key("solver%touch_down_gap", 0.0) or 0.0
+    given = smallest_gap or results.key("capacity%smallest_gap")
+    if given and given > 0.0:
+        yield compared("film", words, f"{1.0e6*given:.3g} um are wanted", gap/given)
+    elif clearance > 0.0 and touch_down > OWN_TOUCH_DOWN*clearance:
+        yield compared("film", words, f"below {1.0e6*touch_down:.3g} um it touches down", gap/touch_down)
+    else:
+        yield Margin("film", words)
+    why = results.summary.get("not_reached", {}).get("value", "")
+    if over_time is not None and isinstance(why, str) and why:
+        yield Margin("motion", "the motion asked for", f"not reached: {why}", None, True)
+
+
+def load(results: Results) -> Iterator[Margin]:
+    """Capacity against the case's load."""
+    capacity, wanted = results.value("load_capacity"), carried_by(results.case)
+    if capacity is not None:
+        words = f"load capacity {capacity:.4g} N"
+        yield compared("load", words, f"the load is {wanted:.4g} N", capacity/wanted) if wanted else Margin("load", words)
+
+
+def lift_off(results: Results) -> Iterator[Margin]:
+    """Lift-off against the case's speed."""
+    off, speed = results.value("lift_off_speed_rpm"), results.key("operation%speed_rpm")
+    if off is not None and off > 0.0:
+        words = f"lift-off at {off:,.0f} rpm"
+        yield compared("lift-off", words, f"the speed is {speed:,.0f} rpm", speed/off) if speed else Margin("lift-off", words)
+
+
+def whirl(results: Results) -> Iterator[Margin]:
+    """Critical mass against the rotor's, its growth, and the onset against the speed."""
+    critical, mass = results.value("critical_mass"), results.key("rotor%mass")
+    speed, onset = results.key("operation%speed_rpm"), results.value("onset_speed_rpm")
+    growth, damped = results.value("growth_rate"), results.value("damping_ratio")
+    frequency = results.value("whirl_frequency") or results.value("axial_frequency")
+    if critical is not None:
+        words = f"critical mass {critical:.4g} kg"
+        yield compared("whirl", words, f"the rotor has {mass:.4g} kg", critical/mass) if mass else Margin("whirl", words)
+    if growth is not None:
+        how = "" if frequency is None else f" at {frequency/(2.0*math.pi):.4g} Hz"
+        ratio = "" if damped is None else f" with a damping ratio of {damped:.3g}"
+        yield Margin("whirl", f"rotor's least damped mode{how}", f"it {'grows' if growth >= 0.0 else 'dies out'}{ratio}", None, growth >= 0.0)
+    if onset is not None and speed:
+        yield compared("whirl", f"{ONSET} {onset:,.0f} rpm", f"the speed is {speed:,.0f} rpm", onset/speed)
+
+
+def foils(results: Results) -> Iterator[Margin]:
+    """Whether foils stay in their equilibrium."""
+    unstable = results.value("stability")
+    if unstable is not None:
+        yield Margin("foils", "foils at rest", "stable" if unstable == 0.0 else "they leave this equilibrium", None, unstable != 0.0)
+
+
+def not_computed(results: Results, margins: Sequence[Margin]) -> list[str]:
+    """What may limit such a bearing, too, and was not asked for."""
+    if results.value("minimum_gap") is None:
+        return []
+    there = {one.subject for one in margins}
+    apply = {"whirl": results.value("axial_gap") is None, "misalignment": True, "temperature": True,
+             "stress": results.case.get("model%foil") in ("shell", "beam", "plate")}
+    return [subject for subject, applies in apply.items() if applies and subject not in there]
+
+
+def misalignment(results: Results) -> Iterator[Margin]:
+    """The tilt that is left; none is known that it must exceed."""
+    words = results.words("misalignment_allowance")
+    if words:
+        yield Margin("misalignment", f"{words} of tilt left")
+
+
+def temperature(results: Results) -> Iterator[Margin]:
+    """How hot the film is; no case says how hot it may be."""
+    hottest = results.value("maximum_film_temperature")
+    if hottest is not None:
+        yield Margin("temperature", f"hottest film {hottest - KELVIN:.4g} °C")
+
+
+def stress(results: Results) -> Iterator[Margin]:
+    """The largest stress; no key has a strength."""
+    most = [value for value in map(results.value, ("maximum_top_foil_stress", "maximum_bump_foil_stress")) if value is not None]
+    if most:
+        yield Margin("stress", f"largest stress {1.0e-6*max(most):.4g} MPa")
+
+
+# --- the sentence ---
+
+def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequence[str] = ()) -> str:
+    """What limits the bearing, by how much, and for what no limit is known; ended: how a run without an answer did; open_questions: what
+    was not computed."""
+    if ended:
+        return ended
+    broken = [one for one in margins if one.state == "broken"]
+    kept = [one for one in margins if one.state == "kept"]
+    broken.sort(key=lambda one: one.factor if one.factor is not None else 1.0)  # what has a number says by how much
+    known = {one.subject for one in broken + kept}
+    without = list(dict.fromkeys(one.subject for one in margins if one.subject not in known))
+    words = []
+    if broken:
+        first, others = broken[0], list(dict.fromkeys(one.subject for one in broken if one.subject != broken[0].subject))
+        words.append(f"{first.subject.capitalize()} limits this bearing: {first.words()}." + (f" Broken, too: {', '.join(others)}." if others else ""))
+    elif kept:
+        near = min(kept, key=lambda one: math.inf if one.factor is None else one.factor)
+        words.append(f"All known limits are kept; {near.subject} is nearest to its own: {near.words()}." if len(kept) > 1
+                     else f"The one known limit is kept, that of {near.subject}: {near.words()}.")
+    if without:
+        words.append(f"No limit is known for {', '.join(without)}" + ("." if known else f": {margins[0].value}."))
+    if open_questions:
+        words.append(f"Not computed: {', '.join(open_questions)}.")
+    return " ".join(words)
+
+
+def total_power(runs: Sequence[dict[str, Any]]) -> str:
+    """The watts of several runs together; empty where one has none."""
+    watts = [run["summary"].get("power_loss", {}).get("value") for run in runs]
+    if len(watts) < 2 or not all(isinstance(one, float) and math.isfinite(one) for one in watts):
+        return ""
+    return f"Power loss of the {len(watts)} cases together: {sum(watts):.4g} W ({' + '.join(f'{one:.4g}' for one in watts)})."
+
+
+def plain(runs: Sequence[dict[str, Any]], of: Callable[[dict[str, Any]], str] = lambda run: run["verdict"]) -> str:
+    """The sentences of some runs for a terminal, a line each."""
+    lines = [f"{run['name']}: {of(run)}" if len(runs) > 1 else of(run) for run in runs]
+    return "\n".join(filter(None, [*lines, total_power(runs)]))
