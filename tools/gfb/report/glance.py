@@ -230,7 +230,7 @@ def sketch(summary, case, thinnest=None):
     angle = results.value("minimum_gap_angle") if ring else None
     if thinnest:
         drawn["thinnest"] = place(85.0*thinnest.across/outer if ring else 76.0, thinnest.angle)
-        drawn["words"] = thinnest.words().removeprefix("at ")
+        drawn["words"] = thinnest.short()
     elif angle is not None:
         drawn["thinnest"] = place(85.0*results.value("minimum_gap_radius")/outer, angle)
     if not ring:

@@ -23,10 +23,14 @@ class Place:
     alike: int = 1     # so many pads have such a place
     is_ring: bool = False
 
+    def short(self) -> str:
+        """The place, as a picture has room for it."""
+        across = f"{'radius' if self.is_ring else 'z ='} {1.0e3*self.across + 0.0:.3g} mm"
+        return f"theta = {math.degrees(self.angle) % 360.0:.0f} deg, {across}" + (f", pad {self.pad}" if self.pad else "")
+
     def words(self) -> str:
         """The place in a sentence."""
-        across = f"{'radius' if self.is_ring else 'z ='} {1.0e3*self.across + 0.0:.3g} mm"
-        return f"at theta = {math.degrees(self.angle) % 360.0:.0f} deg, {across}" + (f", pad {self.pad}" if self.pad else f", alike on {self.alike} pads"*(self.alike > 1))
+        return f"at {self.short()}" + f", alike on {self.alike} pads"*(self.alike > 1)
 
 
 def place_of_thinnest(stem, summary) -> Place | None:
@@ -52,8 +56,11 @@ def place_of_thinnest(stem, summary) -> Place | None:
     alike = numpy.flatnonzero(gap <= smallest + SAME*abs(smallest))
     pads = numpy.unique(pad[alike])
     # As the log has it: of places that are alike the last along the motion, which is the last in the file, and there the outermost of a
-    # ring, of a journal that nearest to the midplane.
+    # ring, of a journal that nearest to the midplane, at +z.
     own = alike[pad[alike] == pads[0]]
     own = own[numpy.abs(theta[own] - theta[own[-1]]) <= SAME]
-    node = own[numpy.argmax(across[own] if is_ring else -numpy.abs(across[own]))]
+    if not is_ring:
+        far = numpy.abs(across[own])
+        own = own[far <= far.min() + SAME*numpy.ptp(across)]
+    node = own[numpy.argmax(across[own])]
     return Place(float(theta[node]), float(across[node]), int(pads[0]) if len(pads) == 1 and numpy.ptp(pad) > 0 else 0, len(pads), is_ring)

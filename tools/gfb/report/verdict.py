@@ -21,7 +21,7 @@ SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit know
 class Margin:
     """One thing that may limit a bearing."""
 
-    subject: str                   # one word of SUBJECTS
+    subject: str                   # in a word or two
     value: str                     # how it is, in words
     limit: str = ""                # against what, in words; empty where none is known
     factor: float | None = None    # how many times the limit is kept, below 1 broken; None: it is, or is not
@@ -117,7 +117,8 @@ def whirl(results: Results) -> Iterator[Margin]:
     if growth is not None:
         how = "" if frequency is None else f" at {frequency/(2.0*math.pi):.4g} Hz"
         ratio = "" if damped is None else f" with a damping ratio of {damped:.3g}"
-        yield Margin("whirl", f"rotor's least damped mode{how}", f"it {'grows' if growth >= 0.0 else 'dies out'}{ratio}", None, growth >= 0.0)
+        yield Margin("whirl" if results.value("axial_gap") is None else "axial vibration", f"rotor's least damped mode{how}",
+                     f"it {'grows' if growth >= 0.0 else 'dies out'}{ratio}", None, growth >= 0.0)
     if onset is not None and speed:
         yield compared("whirl", f"{ONSET} {onset:,.0f} rpm", f"the speed is {speed:,.0f} rpm", onset/speed)
 
