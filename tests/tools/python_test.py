@@ -8,9 +8,11 @@ import inspect
 import os
 import pathlib
 import pydoc
+import re
 import subprocess
 import sys
 import tempfile
+import time
 import typing
 import unittest
 import unittest.mock
@@ -22,7 +24,8 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb import result_names  # noqa: E402
-from gfb.design_study import tell_tilt  # noqa: E402
+from gfb.design_study import rows_of  # noqa: E402
+from gfb.design_work import Part, Progress, computed, tilt_words  # noqa: E402
 from gfb.program import find_program, launcher, read_keys  # noqa: E402
 from gfb.results import Unreadable, read_history  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
@@ -154,7 +157,9 @@ class PythonTest(unittest.TestCase):
     def test_slow_design(self):
         case = gfb.Case(SMALL | {"rotor": {"mass": 2.0}})
         said = []
-        found = gfb.design(case, self.folder, smallest_gap=8.0e-6, tell=said.append)
+        filled = []
+        found = gfb.design(case, self.folder, smallest_gap=8.0e-6, tell=said.append, filled=lambda so_far: filled.append(list(so_far.rows)))
+        self.assertEqual([sum(row[1] == "not computed yet" for row in rows) for rows in filled], [6, 5, 4, 3, 2, 1, 0])
         self.assertEqual([part.name for part in found.parts if part.stem is None], ["lift_off"])
         self.assertTrue(all(part.question in " ".join(said) for part in found.parts if part.stem is not None))
         rows = {question: (answer, verdict) for question, answer, verdict, _ in found.rows}
@@ -183,13 +188,58 @@ class PythonTest(unittest.TestCase):
             gfb.design(case, self.folder, "wrong", tell=said.append)
 
     def test_time_of_a_tilt(self):
-        point, said = {"factorizations": 30.0, "wall_time": 18.0}, []
-        tell_tilt(gfb.Case(SMALL), point, said.append)
-        self.assertEqual(said, [], "a rigid bearing takes no time")
+        point = {"factorizations": 30.0, "wall_time": 18.0}
+        self.assertEqual(tilt_words(gfb.Case(SMALL), point), "", "a rigid bearing takes no time")
         sectors = {"bearing": {"kind": "thrust"}, "pads": {"count": 6}, "model": {"foil": "shell"}}
         for groups, words in (({"model": {"foil": "shell"}}, ": 1.2 to 16 min"), (sectors, ": 3.6 to 48 min")):
-            tell_tilt(gfb.Case(groups), point, said.append)
-            self.assertIn(words, said[-1])
+            self.assertIn(words, tilt_words(gfb.Case(groups), point))
+
+    def test_words_of_a_study(self):
+        """Before a part: what it does, and a time that is scaled from this call's states or not there."""
+        said = []
+        progress = Progress(4, said.append, 90, pause=0.05)
+        first, second, search = (Part(name, name, states=states, work="work") for name, states in (("one", 1), ("twelve", 12), ("search", 0)))
+        progress.begin(first)
+        progress.at_work["one"] -= 3.0  # so long ago
+        with progress.watching():
+            time.sleep(0.2)
+        self.assertIn("at work: one for 3", said[1])
+        progress.end(first)
+        progress.begin(second)
+        progress.begin(search)
+        lines = [line for line in said if not line.startswith("at work")]
+        self.assertEqual(lines[0], "1 of 4 begins: one: work; how long is not known yet; its limit is 90 s")
+        self.assertRegex(lines[1], "^one: done after 3.* s$")
+        minutes = re.search(r"about (\d+) s, as one state took 3\.(\d) s so far", lines[2])
+        self.assertAlmostEqual(float(minutes[1]), 12.0*(3.0 + 0.1*float(minutes[2])), delta=0.7)
+        self.assertIn("how long is not known", lines[3])
+
+    def test_study_that_is_stopped(self):
+        """A part that its limit stops has its last state, and goes on from there."""
+        case, stem, times = gfb.Case.template("transient"), self.folder/"part", []
+        case["transient%turns"] = 20.0
+        for _ in range(2):
+            part = Part("orbit", "orbit", case)
+            result = computed(part, case, stem, None, Progress(1, str, 2))
+            self.assertIn("limit of 2 s", part.stopped)
+            with h5py.File(f"{result.stem}.h5") as file:
+                times.append(file["transient/time"][...])
+        self.assertGreater(times[1][-1], times[0][-1])
+        self.assertEqual(list(times[1][:len(times[0])]), list(times[0]))
+        # A program that is always stopped, with nothing to show, and that takes no restart file: it is asked to go on, then to begin.
+        nothing = self.folder/"gfb"
+        nothing.write_text("#!/bin/sh\n[ $# = 1 ] && echo gfb && exit\necho \"$@\" >>\"$0.said\"\n"
+                           "case $* in *--restart*) exit 1 ;; esac\nexit 124\n", encoding="utf-8")
+        nothing.chmod(0o755)
+        part = Part("orbit", "orbit", case)
+        (self.folder/"other.restart.h5").touch()
+        self.assertIsNone(computed(part, case, self.folder/"other", nothing, Progress(1, str, 2)))
+        calls = pathlib.Path(f"{nothing}.said").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(["--restart" in one for one in calls], [True, False])
+        self.assertTrue(all("--time-limit 2 " in one for one in calls))
+        self.assertEqual(rows_of([part, Part("whirl", "whirl", case)], None)[:2],
+                         [("orbit", "stopped by its limit of 2 s", "before there was a state; another call goes on", True),
+                          ("whirl", "not computed yet", "", False)])
 
     def test_sectors(self):
         case = gfb.Case.template("thrust")

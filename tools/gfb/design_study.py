@@ -3,13 +3,14 @@ balance grade, misalignment, tolerances.
 
   tools/design CASE.nml          a page, results/CASE.design/CASE.html, and the same as a table
 
-Each part is a case file beside its results, which tools/run and tools/report take, too. Called again, it computes what is not there
-yet, was stopped, or is another program's. A part that does not apply is left out, in words. Exit status: 0 the page is written, 1 the case is wrong.
+Each part is a case file beside its results, which tools/run and tools/report take, too. A line says when a part begins and how long it may take;
+the page is there after the first one and fills. Ctrl-C loses nothing: called again, it computes what is not there yet, goes on with what was stopped,
+and computes again what is another program's. A part that does not apply is left out, in words. Exit status: 0 the page is written, 1 the case is wrong.
 """
 
 from __future__ import annotations
 
-import concurrent.futures
+import argparse
 import dataclasses
 import math
 import os
@@ -17,17 +18,17 @@ import pathlib
 import re
 import sys
 import threading
-import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gfb.case import Case, CaseError
-from gfb.members import find_member, run_member
+from gfb.design_work import Part, Progress, compute_all, tilt_words
 from gfb.report.glance import Results, carried_by
 from gfb.report.main import read_run, write_page
 from gfb.report.verdict import ONSET, Margin, compared, margins_of, not_computed, sentence
 from gfb.results import read_history
-from gfb.tool import draw_into_files, parser_of, say
+from gfb.running import Result
+from gfb.tool import RunError, draw_into_files, parser_of, say
 
 DIRECTIONS = 12                      # of the load, around the bearing
 SPEEDS = (0.5, 0.75, 1.0, 1.25)      # over the speed of the case, of capacities
@@ -37,7 +38,9 @@ SMALLEST_GAP = 4.0e-6                # m: the film at which load and tilt have r
 GRADE = 2.5                          # mm/s, ISO 21940-11: of turbines
 IDLE = re.compile(r"&sensitivity: parameters(?:\(\d+\))? = '([\w%]+)'")  # a key whose tolerance is none of this case
 ORBIT_TURNS, ORBIT_STEADY = 60, 1.0e-3
-TILT_FACTORIZATIONS = (60, 800)      # of a misalignment on shells, as those of docs/manual/design.md took
+WORK = {"point": "the equilibrium, its stiffness and damping", "directions": f"{DIRECTIONS} equilibria", "capacity": f"a search at each of {len(SPEEDS)} speeds",
+        "misalignment": "a search for the tilt", "lift_off": "a search for the speed", "whirl": f"stiffness and damping at {len(WHIRL_SPEEDS)} speeds",
+        "orbit": f"steps in time over up to {ORBIT_TURNS} turns", "tolerances": "the equilibrium and derivatives by keys"}
 STATE = ("scene", "bearing", "pads", "ramp", "bore", "gas", "shaft_contact", "thermal", "operation", "model", "mesh", "top_foil",
          "bump_foil", "contact", "solver", "output")
 # What a drawing leaves open, as a standard deviation: a length [m], or a part of the value.
@@ -48,26 +51,25 @@ TOLERANCES = {"bearing%clearance": (2.0e-6, 0.0), "bump_foil%height": (1.0e-5, 0
 
 
 @dataclasses.dataclass
-class Part:
-    """One part of the study."""
-
-    name: str                 # of its files
-    question: str
-    case: Case | None = None
-    left_out: str = ""        # why there is no case, or no answer
-    stem: pathlib.Path | None = None  # of its results, where there are any
-
-
-@dataclasses.dataclass
 class Design:
-    """What a study found."""
+    """What a study found, or has found so far."""
 
     parts: list[Part]
     rows: list[tuple[str, str, str, bool]]  # question, answer, margin or verdict, whether that is a bad one
     folder: pathlib.Path
     name: str
-    margins: list[Margin]
-    verdict: str              # what limits the bearing, in a sentence
+    margins: list[Margin] = dataclasses.field(default_factory=list)
+    verdict: str = ""         # what limits the bearing, in a sentence
+    shown: dict[pathlib.Path, Any] = dataclasses.field(default_factory=dict, repr=False)  # what the page has of a part, drawn once
+
+    def fill(self, smallest_gap: float, gfb: str | os.PathLike[str] | None) -> None:
+        """Answers, margins and verdict by what there is of the parts."""
+        runs = {part.name: read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")} for part in self.parts if part.stem}
+        self.rows = rows_of(self.parts, runs)
+        self.margins = margins_of_parts(self.parts, runs, smallest_gap)
+        point = runs.get("point")
+        left = not_computed(Results(point["summary"], point["used"]), self.margins) if point else []
+        self.verdict = sentence(self.margins, open_questions=left)
 
     def table(self) -> str:
         """The answers as a Markdown table."""
@@ -78,61 +80,50 @@ class Design:
 
     def page(self, gfb: str | os.PathLike[str] | None = None) -> pathlib.Path:
         """Writes the page of the study."""
-        runs = [read_run(part.stem, gfb, title=part.question, curve=part.name != "point") for part in self.parts if part.stem]
+        for part in self.parts:
+            if part.stem and part.stem not in self.shown:
+                self.shown[part.stem] = read_run(part.stem, gfb, title=part.question, curve=part.name != "point")
+        runs = [self.shown[part.stem] for part in self.parts if part.stem]
         return write_page(runs, self.folder/f"{self.name}.html", self.rows, self.name, self.margins, self.verdict)
 
 
 def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "design", smallest_gap: float | None = None, grade: float = GRADE,
-           processes: int = 1, gfb: str | os.PathLike[str] | None = None, tell: Callable[[str], None] = say) -> Design:
-    """Runs all parts of the study that apply to a case with a load; grade: of the rotor's balance [mm/s]. Raises CaseError where the case
-    itself is wrong."""
+           processes: int = 1, gfb: str | os.PathLike[str] | None = None, tell: Callable[[str], None] = say, seconds: int = 0,
+           filled: Callable[[Design], object] | None = None) -> Design:
+    """Runs all parts of the study that apply to a case with a load; grade: of the rotor's balance [mm/s]; seconds: after which a part is
+    stopped, 0: none is; filled: called with what there is after each part. Raises CaseError where the case itself is wrong."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     parts = parts_of(case, smallest_gap, grade)
     if parts[0].case is not None:  # what is wrong with the case itself is told
         parts[0].case.check(gfb=gfb)
     for part in parts:
-        while part.case is not None:
-            try:
-                part.case.check(gfb=gfb)
-                break
-            except CaseError as error:
-                if not without_idle_keys(part.case, str(error)):
-                    part.case, part.left_out = None, " ".join(line.partition(": ")[2] for line in str(error).splitlines())
-    todo = [(part, part.case) for part in parts if part.case is not None]
-    done, lock, began = 0, threading.Lock(), time.monotonic()
+        check_part(part, gfb)
+    found = Design(parts, [], folder, name)
+    progress, lock = Progress(sum(part.case is not None for part in parts), tell, seconds), threading.Lock()
 
-    def compute(part: Part, of_part: Case) -> None:
-        nonlocal done
-        stem = folder/f"{name}_{part.name}"
-        result = find_member(of_part, stem, gfb) or run_member(of_part, stem, gfb, tell)
-        part.stem = result.stem
-        with lock:
-            done += 1
-            left = (time.monotonic() - began)*(len(todo) - done)/done
-            tell(f"{done} of {len(todo)}: {part.question}" + ("" if result.converged else ": no answer")
-                 + (f"; about {left:.0f} s left" if done < len(todo) else ""))
-            if part.name == "point" and result.converged and any(other.name == "misalignment" for other, _ in todo):
-                tell_tilt(case, result.summary, tell)
+    def after(part: Part, result: Result | None, new: bool) -> None:
+        if part.name == "point" and result is not None and result.converged and (words := tilt_words(case, result.summary)):
+            progress.hints["misalignment"] = words
+        if filled is not None and new:
+            with lock:
+                found.fill(gap_of(case, smallest_gap), gfb)
+                filled(found)
 
-    with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes)) as pool:
-        list(pool.map(lambda both: compute(*both), todo))
-    runs = {part.name: read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")} for part in parts if part.stem}
-    margins = margins_of_parts(parts, runs, gap_of(case, smallest_gap))
-    point = runs.get("point")
-    left = not_computed(Results(point["summary"], point["used"]), margins) if point else []
-    return Design(parts, rows_of(parts, runs), folder, name, margins, sentence(margins, open_questions=left))
+    compute_all(parts, lambda part: folder/f"{name}_{part.name}", processes, gfb, progress, after)
+    found.fill(gap_of(case, smallest_gap), gfb)
+    return found
 
 
-def tell_tilt(case: Case, point: dict[str, Any], tell: Callable[[str], None]) -> None:
-    """Says how long a misalignment on shells may take, by the operating point's time a factorization: a tilt takes the whole width of a
-    journal, and all pads of a thrust bearing instead of one."""
-    if case.groups.get("model", {}).get("foil") != "shell" or not point["factorizations"]:
-        return
-    larger = int(case["pads%count"]) if case.is_thrust() else 2
-    least, most = (number*larger*point["wall_time"]/point["factorizations"]/60.0 for number in TILT_FACTORIZATIONS)
-    tell(f"misalignment left: shells under a tilt, {larger} times the unknowns and {TILT_FACTORIZATIONS[0]} to {TILT_FACTORIZATIONS[1]} factorizations: "
-         f"{least:.2g} to {most:.2g} min where nothing else runs")
+def check_part(part: Part, gfb: str | os.PathLike[str] | None) -> None:
+    """Leaves a part out whose case is wrong, in the program's words; keys without an effect go out of its tolerances."""
+    while part.case is not None:
+        try:
+            part.case.check(gfb=gfb)
+            break
+        except CaseError as error:
+            if not without_idle_keys(part.case, str(error)):
+                part.case, part.left_out = None, " ".join(line.partition(": ")[2] for line in str(error).splitlines())
 
 
 # --- the parts ---
@@ -180,7 +171,8 @@ def with_analysis(case: Case, name: str, question: str, analysis: str, kept: Seq
     if analysis == "linear_dynamics" and not {"dynamics%frequencies", "dynamics%frequency_ratios"} & set(one):
         one["dynamics%frequency_ratios"] = FREQUENCY_RATIOS
     one["scene%title"] = f"{case.groups['scene'].get('title', '')}: {question}".lstrip(": ")
-    return Part(name, question, one)
+    points = len(one.listed("sweep%values")) if "sweep%values" in one else 1
+    return Part(name, question, one, states=points if analysis in ("equilibrium", "linear_dynamics") else 0, work=WORK[name])
 
 
 def orbit_of(case: Case, grade: float, speed: float, thrust: bool) -> Part:
@@ -220,11 +212,15 @@ def rows_of(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]]) -> list[t
     """Question, answer, margin and whether it is a bad one, of all parts."""
     rows = []
     for part in parts:
-        if part.stem is None:
-            rows.append((part.question, "left out", part.left_out, False))
+        run = runs.get(part.name)
+        if run is None:
+            rows.append((part.question, *without_results(part)))
             continue
-        run = runs[part.name]
-        if not run["converged"]:
+        if part.stopped:
+            points = len(next(iter(run["points"].values()), ()))
+            there = f"the last state reached is below; {points} of {part.states} points" if part.states > 1 else "the last state reached is below"
+            rows.append((part.question, part.stopped, f"{there}; another call goes on", True))
+        elif not run["converged"]:
             why = ": ".join(str(run["summary"][name]["value"]) for name in ("outcome", "reason") if name in run["summary"])
             rows.append((part.question, "no answer", f"{why}; the last state reached is below", True))
         elif part.name == "point":
@@ -266,6 +262,13 @@ def at_own_speed(run: dict[str, Any]) -> int:
     """The point of a sweep that is nearest to the case's speed."""
     speeds, own = column(run, "speed_rpm"), float(run["used"]["operation%speed_rpm"])
     return min(range(len(speeds)), key=lambda i: abs(speeds[i] - own))
+
+
+def without_results(part: Part) -> tuple[str, str, bool]:
+    """Answer and margin of a part of which there is nothing: left out, stopped, or to come."""
+    if part.stopped:
+        return part.stopped, "before there was a state; another call goes on", True
+    return ("left out", part.left_out, False) if part.case is None else ("not computed yet", "", False)
 
 
 def column(run: dict[str, Any], name: str) -> list[float]:
@@ -346,20 +349,39 @@ def main() -> int:
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR", help="folder; default: results/CASE.design")
     parser.add_argument("--smallest-gap", type=float, metavar="M", help=f"film at which a limit is reached [m]; default: the case's, or {SMALLEST_GAP:g}")
     parser.add_argument("--grade", type=float, default=GRADE, metavar="G", help=f"balance grade of the rotor, ISO 21940 [mm/s]; default: {GRADE:g}")
+    parser.add_argument("--seconds", type=seconds_of, default=0, metavar="S", help="stop a part after so many seconds, and keep what it has; default: none is")
     parser.add_argument("--processes", type=int, default=max(1, (os.cpu_count() or 2)//2), metavar="N", help="parts at a time")
     parser.add_argument("--gfb", help="the program; default: as gfb from Python finds it")
     options = parser.parse_args()
     draw_into_files()
+    page = None
+
+    def fill(found: Design) -> None:
+        nonlocal page
+        first, page = page is None, found.page(options.gfb)
+        if first:
+            say(f"{page} is there and fills")
+
     try:
         case = Case.read(options.case)
         if "operation%axial_load" not in case and "operation%load" not in case:
             raise CaseError(f"{options.case}: a study needs a load in &operation")
         found = design(case, options.output or pathlib.Path("results")/f"{options.case.stem}.design", options.case.stem,
-                       options.smallest_gap, options.grade, options.processes, options.gfb)
+                       options.smallest_gap, options.grade, options.processes, options.gfb, seconds=options.seconds, filled=fill)
     except CaseError as error:
         print(error, file=sys.stderr)
         return 1
+    except (KeyboardInterrupt, RunError):
+        say(f"stopped: {f'{page} has what there is; ' if page else ''}the same command goes on from here")
+        raise
     print(f"{found.verdict}\n")
     print(found.table())
     print(f"written: {found.page(options.gfb)}")
     return 0
+
+
+def seconds_of(words: str) -> int:
+    """A limit of time: a whole number of seconds above zero."""
+    if not words.isdigit() or int(words) == 0:
+        raise argparse.ArgumentTypeError(f"{words}: a whole number of seconds above zero")
+    return int(words)
