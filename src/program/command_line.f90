@@ -34,7 +34,8 @@ module gfb_command_line
     logical :: keys = .false.    !! print the table of all keys
     logical :: results = .false. !! print the table of all names of results
     character(len=:), allocatable :: template !! analysis whose template to print; empty: none
-    character(len=:), allocatable :: explain  !! key or result to explain; empty: none
+    logical :: short = .false.   !! of a template only what the case needs
+    character(len=:), allocatable :: explain  !! key, result, ... to explain; empty: none
     logical :: csv = .false.     !! history, motion or orbits as comma-separated values, too
     logical :: quiet = .false.   !! a line a stage and no more
     logical :: verbose = .false. !! a line per iteration
@@ -45,10 +46,10 @@ module gfb_command_line
     procedure :: context => run_context, informs
   end type command_line_type
 
-  character(len=20), parameter :: options(20) = [character(len=20) :: &
+  character(len=20), parameter :: options(21) = [character(len=20) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
     '--keys', '--quiet', '--petsc', '--petsc-options-file', '--groups', '--name', '--results', &
-    '--strict', '--time-limit', '--template', '--explain', '--csv', '--verbose']
+    '--strict', '--time-limit', '--template', '--explain', '--csv', '--verbose', '--short']
 
 contains
 
@@ -121,6 +122,9 @@ contains
     if (line%quiet .and. line%verbose) then
       call fail(error, 'gfb: --quiet or --verbose, not both')
     end if
+    if (line%short .and. line%template == '') then
+      call fail(error, 'gfb: --short is of --template')
+    end if
     if (allocated(error) .or. line%informs()) return
     if (.not. allocated(line%case_file)) then
       call fail(error, 'gfb: no case file given; gfb --help shows how')
@@ -160,6 +164,8 @@ contains
       line%results = .true.
     case ('--csv')
       line%csv = .true.
+    case ('--short')
+      line%short = .true.
     case ('--quiet')
       line%quiet = .true.
     case ('--verbose')
@@ -377,7 +383,10 @@ contains
       '                  meaning; A: equilibrium, fixed_position, strip, modes,'//next// &
       '                  linear_dynamics, load_capacity, lift_off,'//next// &
       '                  misalignment_allowance, transient, periodic, thrust'//next// &
-      '  --explain NAME  a key (or group%key), a group, or the name of a result;'//next// &
+      '                  --short: only what the case needs, 25 lines; then A may be a'//next// &
+      '                  topic of --explain, too'//next// &
+      '  --explain NAME  a key (or group%key), a group, the name of a result, a value of'//next// &
+      '                  a key, or a word of the field; --explain topics lists these;'//next// &
       '                  gfb help NAME does the same'//next// &
       '  --keys          table of all keys of a case file'//next// &
       '  --results       table of the names of all results'//next// &

@@ -8,6 +8,7 @@ module gfb_information
   use gfb_scene_reading, only: all_keys, key_table
   use gfb_text, only: lower_case, nearest_word, did_you_mean, plain_text, join
   use gfb_command_line, only: command_line_type, help_text
+  use gfb_field_words, only: field_word_type, find_field_word, field_word_rows, first_word
   use gfb_provenance, only: version_text
   use gfb_case_keys, only: case_keys_type
   use gfb_scene, only: scene_type, read_groups
@@ -33,16 +34,19 @@ module gfb_information
   character(len=*), parameter :: template_words(*) = [analysis_rows%word, [character(len= &
                                  len(analysis_rows%word)) :: thrust_template]]
   integer, parameter :: comment_column = 42, longest_line = 120 !! of a template
+  integer, parameter :: longest_short_line = 100
   character(len=1), parameter :: next = new_line('a')
   integer, parameter :: longest_name = 64
+  character(len=*), parameter :: all_topics = 'topics' !! of `--explain`
 
 contains
 
-  !> All that is known of a word: keys of that name, keys of the group, the result.
+  !> All that is known of a word: keys of that name, keys of the group, the result, keys that take
+  !> it as their value, and where the field's word leads.
   !>
   !> Fails with the names that are near where there is none.
   subroutine explanation(asked, words, error)
-    character(len=*), intent(in) :: asked !! as typed: `group%key`, key, group or result
+    character(len=*), intent(in) :: asked !! as typed
     character(len=:), allocatable, intent(out) :: words !! to be printed
     type(error_type), allocatable, intent(out) :: error !! why nothing is known
     type(key_type), allocatable :: keys(:)
@@ -65,11 +69,18 @@ contains
     end do
     call find_result(name, row)
     if (row%name /= '') words = words//result_words(name)
+    do i = 1, size(keys)
+      if (index(keys(i)%type_words, "'"//name//"'") > 0) then
+        words = words//value_words(name, keys(i))
+      end if
+    end do
+    words = words//field_words(find_field_word(name))
+    if (name == all_topics) words = words//topic_list()
     if (words /= '') then
       words = words(:len(words) - 1)
     else
       call fail(error, 'gfb: there is no key, group or result '//trim(asked)//near(name, keys)// &
-                '; gfb --keys and gfb --results have all')
+                '; gfb --keys, gfb --results and gfb --explain topics have all')
     end if
   end subroutine explanation
 
@@ -101,6 +112,48 @@ contains
     end if
   end function key_words
 
+  !> A value that a key takes.
+  pure function value_words(value, one) result(words)
+    character(len=*), intent(in) :: value
+    type(key_type), intent(in) :: one
+    character(len=:), allocatable :: words
+
+    words = "value '"//value//"' of "//trim(one%name)//' in &'//trim(one%group)//next// &
+            '  meaning  '//plain_text(one%meaning)//next
+    if (one%shown_default /= no_default) then
+      words = words//'  default  '//plain_text(one%shown_default)//next
+    end if
+  end function value_words
+
+  !> Where a word of the field leads; empty where it is none.
+  pure function field_words(row) result(words)
+    type(field_word_type), intent(in) :: row
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (row%words == '') return
+    words = 'topic '//first_word(row)//next//'  meaning  '//trim(row%meaning)//next
+    if (row%keys /= '') words = words//'  keys     '//trim(row%keys)//next
+    if (row%results /= '') words = words//'  results  '//trim(row%results)//next
+    if (row%analysis /= '') then
+      words = words//'  begin    gfb --template '//first_word(row)//' --short'//next
+    end if
+    words = words//'  manual   docs/manual/'//trim(row%page)//'.md'//next
+  end function field_words
+
+  !> All words of the field that are known, those that lead to the same on one line.
+  pure function topic_list() result(words)
+    character(len=:), allocatable :: words
+    type(field_word_type), allocatable :: rows(:)
+    integer :: i
+
+    rows = field_word_rows()
+    words = ''
+    do i = 1, size(rows)
+      words = words//trim(rows(i)%words)//next
+    end do
+  end function topic_list
+
   !> The names that are nearest to an unknown one, as a question.
   pure function near(name, keys) result(words)
     character(len=*), intent(in) :: name
@@ -115,7 +168,7 @@ contains
       short(i) = keys(i)%name
     end do
     found = [character(len=longest_name) :: nearest_word(name, full), nearest_word(name, short), &
-             nearest_word(name, row_names())]
+             nearest_word(name, row_names()), nearest_field_word(name)]
     words = ''
     do i = 1, size(found)
       if (found(i) == '' .or. any(found(:i - 1) == found(i))) cycle
@@ -124,6 +177,22 @@ contains
     end do
     words = did_you_mean(words)
   end function near
+
+  !> The field's word that is nearest to an unknown one; empty where none is.
+  pure function nearest_field_word(name) result(nearest)
+    character(len=*), intent(in) :: name
+    character(len=:), allocatable :: nearest
+    type(field_word_type), allocatable :: rows(:)
+    character(len=longest_name), allocatable :: titles(:)
+    integer :: i
+
+    rows = field_word_rows()
+    allocate (titles(size(rows)))
+    do i = 1, size(rows)
+      titles(i) = first_word(rows(i))
+    end do
+    nearest = nearest_word(name, titles)
+  end function nearest_field_word
 
   !> The text that is asked for; empty where a case is to be computed.
   !>
@@ -143,27 +212,35 @@ contains
     else if (line%results) then
       words = results_text()
     else if (line%template /= '') then
-      call template_text(line%template, words, error)
+      call template_text(line%template, line%short, words, error)
     else if (line%explain /= '') then
       call explanation(line%explain, words, error)
     end if
   end subroutine information
 
-  !> The case file of an analysis with which it can begin: run as it is, it has an answer.
+  !> The case file of an analysis, or of a word of the field, with which it can begin: run as it
+  !> is, it has an answer.
   !>
   !> Fails where there is no such analysis.
-  subroutine template_text(analysis, words, error)
-    character(len=*), intent(in) :: analysis !! as typed
+  subroutine template_text(asked, short, words, error)
+    character(len=*), intent(in) :: asked !! as typed
+    logical, intent(in) :: short !! only what the case needs
     character(len=:), allocatable, intent(out) :: words !! of the file
     type(error_type), allocatable, intent(out) :: error !! why there is none
     type(case_keys_type) :: keys
     type(scene_type) :: scene
     type(analysis_example_type) :: example
-    character(len=:), allocatable :: hint, word
+    type(field_word_type) :: topic
+    character(len=:), allocatable :: analysis, hint, word
     integer :: number
 
     words = ''
-    number = findloc(template_words, analysis, 1)
+    analysis = asked
+    if (all(template_words /= asked)) then
+      topic = find_field_word(asked)
+      if (topic%analysis /= '') analysis = trim(topic%analysis)
+    end if
+    number = findloc(template_words == analysis, .true., 1)
     if (number == 0) then
       hint = did_you_mean(nearest_word(analysis, template_words))
       if (hint == '') hint = '.'
@@ -178,9 +255,14 @@ contains
       word = trim(analysis_equilibrium%word)
       example = thrust_example
     end if
+    if (topic%groups /= '') call want_groups(example, topic%groups)
     call keys%open_text("&scene title='my first case' analysis='"//word//"' /"// &
                         trim(example%text), 'template')
     call read_groups(keys, scene)
+    if (short) then
+      words = short_text(keys%book%keys(:keys%book%count), example)
+      return
+    end if
     words = '! A case file of gfb, written by gfb --template. It can be run as it is. SI '// &
             'units.'//next// &
             '! A key in a comment shows its default; take away its ''!'' to give another '// &
@@ -190,6 +272,47 @@ contains
             '! gfb --explain KEY of a key.'//next// &
             written(keys%book%keys(:keys%book%count), example)
   end subroutine template_text
+
+  !> Takes groups of an example out of those that stand in comments.
+  pure subroutine want_groups(example, groups)
+    type(analysis_example_type), intent(inout) :: example
+    character(len=*), intent(in) :: groups
+    integer :: place
+
+    place = index(example%offered, ' '//trim(groups)//' ')
+    if (place == 0) return
+    example%offered = example%offered(:place)//example%offered(place + len_trim(groups) + 2:)
+  end subroutine want_groups
+
+  !> The keys that an example gives, a group a line or two, as a case file.
+  pure function short_text(met, example) result(words)
+    type(key_type), intent(in) :: met(:)
+    type(analysis_example_type), intent(in) :: example
+    character(len=:), allocatable :: words
+    character(len=:), allocatable :: group, line, word
+    integer :: i
+
+    words = '! Run it: gfb CASE.nml. SI units. gfb --explain KEY says what a key is; without '// &
+            '--short all keys stand here.'//next
+    group = ''
+    line = ''
+    do i = 1, size(met)
+      if (.not. (met(i)%is_echoed .and. met(i)%given)) cycle
+      if (example%offers(trim(met(i)%group))) cycle
+      if (met(i)%group /= group) then
+        if (group /= '') words = words//line//' /'//next
+        group = trim(met(i)%group)
+        line = '&'//group
+      end if
+      word = ' '//trim(met(i)%name)//' = '//trim(met(i)%value)
+      if (len(line) + len(word) > longest_short_line) then
+        words = words//line//next
+        line = '   '
+      end if
+      line = line//word
+    end do
+    words = words//line//' /'//next
+  end function short_text
 
   !> The keys as a case file; the groups that are only offered stand in comments.
   pure function written(met, example) result(words)

@@ -14,6 +14,7 @@ from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics", "load_capacity", "lift_off",
             "misalignment_allowance", "transient", "periodic", "thrust")
 SECONDS = 900
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def call(*words, folder, given="", ranks=1):
@@ -65,8 +66,27 @@ def check_templates(checks, folder):
         status, words, wrong = call("--template", word, folder=folder)
         checks.that(f"--template {word}: {expected}", status == 1 and expected in wrong and not words)
     analyses = wrong.partition("The analyses are ")[2].strip().split(", ")
-    helped = re.findall(r"\w+", call("--help", folder=folder)[1].partition("; A: ")[2].partition("--explain")[0])
+    helped = re.findall(r"\w+", call("--help", folder=folder)[1].partition("; A: ")[2].partition("--short")[0])
     checks.that(f"--help: all {len(analyses)} analyses of --template", len(analyses) > 5 and helped == analyses)
+
+
+def check_short(checks, folder):
+    """25 lines that run, of each analysis, and of each topic that has a template: with the groups that the topic is of."""
+    topics = {line.split()[0] for line in call("--explain", "topics", folder=folder)[1].splitlines()}
+    begun = {topic for topic in topics if "--short" in call("--explain", topic, folder=folder)[1]}
+    checks.that(f"topics with a template: {len(begun)} of {len(topics)}", len(begun) > 20)
+    run = {}
+    for word in sorted(begun | set(ANALYSES)):
+        status, text, wrong = call("--template", word, "--short", folder=folder)
+        lines = text.splitlines()
+        checks.that(f"--template {word} --short: {len(lines)} lines", status == 0 and not wrong and len(lines) <= 25 and max(map(len, lines)) <= 120)
+        run.setdefault(text, word)
+    for text, word in run.items():
+        status, _, wrong = call("--strict", "--output", str(folder/"short"), "-", folder=folder, given=text)
+        checks.that(f"{word}: runs {wrong}", status == 0)
+    heated = call("--template", "cooling", "--short", folder=folder)[1]
+    checks.that("cooling: with heat", "&thermal " in heated and "&sweep" not in heated)
+    checks.that("--short alone: refused", "is of --template" in call("--short", folder=folder)[2])
 
 
 def check_explanations(checks, folder):
@@ -80,6 +100,9 @@ def check_explanations(checks, folder):
         status, told, wrong = call("--explain", word, folder=folder)
         checks.that(f"{word}: {parts}", status == 0 and not wrong and all(part in told for part in parts))
         checks.that(f"{word}: no mark of Markdown", "`" not in told)
+    for line in call("--explain", "topics", folder=folder)[1].splitlines():
+        page = re.search(r"^  manual   (docs/manual/\w+\.md)$", call("--explain", line.split()[0], folder=folder)[1], re.M)
+        checks.that(f"{line.split()[0]}: its page of the manual", page and (ROOT/page[1]).exists())
     checks.that("help WORD is --explain WORD", call("help", "load", folder=folder)[1] == call(
         "--explain=load", folder=folder)[1])
     status, told, wrong = call("--explain", "clearence", folder=folder)
@@ -109,7 +132,7 @@ def check_input(checks, folder):
 def main():
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     checks = Checks()
-    for check in (check_templates,) if "--long" in sys.argv[1:] else (check_explanations, check_input):
+    for check in (check_templates, check_short) if "--long" in sys.argv[1:] else (check_explanations, check_input):
         with tempfile.TemporaryDirectory() as folder:
             check(checks, pathlib.Path(folder))
     checks.close()
