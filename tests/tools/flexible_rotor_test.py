@@ -11,6 +11,7 @@ import sys
 import tempfile
 import types
 import unittest
+import warnings
 
 import h5py
 import numpy
@@ -171,6 +172,23 @@ class BearingsTest(MadeUpFiles):
                 self.bearings(*words, **more)
         with self.assertRaises(FileNotFoundError):
             self.bearings(self.folder/"not_there.h5", 0)
+
+    def test_thrust_bearing_and_no_answer_are_told(self):
+        """What ROSS has no place for is said once, and why a run has no coefficients."""
+        with h5py.File(self.folder/"thrust.h5", "w") as file:
+            file["dynamics/frequency"] = FREQUENCY
+            file["dynamics/stiffness"], file["dynamics/damping"] = STIFFNESS[:, :3, :3], DAMPING[:, :3, :3]
+        for version in VERSIONS:
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always")
+                made = self.bearings(self.folder/"thrust.h5", (0, 1), version=version)
+            numpy.testing.assert_array_equal(made[1].kzz, STIFFNESS[:, 0, 0])
+            self.assertEqual(len(said), 1)
+            self.assertRegex(str(said[0].message), "thrust: .*against a tilt of the runner are lost")
+        with h5py.File(self.folder/"refused.h5", "w") as file:
+            file["summary/outcome"], file["summary/reason"] = "refused", "the load is more than it carries"
+        with self.assertRaisesRegex(Unreadable, r"^[^:]*refused.h5: there is no answer, .*\(refused: the load is more"):
+            self.bearings(self.folder/"refused.h5", 0)
 
     def test_a_missing_ross_is_named_with_its_versions(self):
         for module, text in ((None, "ROSS is not here"), (types.ModuleType("ross"), "another one")):

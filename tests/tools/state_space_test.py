@@ -104,6 +104,17 @@ class RationalFunction(unittest.TestCase):
                 self.assertLess(numpy.linalg.eigvals(file["A"]).real.max(), 0.0)
                 self.assertGreater(file["deviation"], 1.0e-3)
 
+    def test_a_small_deviation_is_no_warning(self):
+        """A tenth of a percent is said as a number, and no more."""
+        wanted = made_up(False)(1j*self.frequency)
+        wanted *= 1.0 + 2.0e-3*numpy.cos(7.0*numpy.arange(wanted.size).reshape(wanted.shape))
+        with tempfile.TemporaryDirectory() as folder:
+            path = table_file(pathlib.Path(folder)/"a.h5", self.frequency, wanted)
+            status, said = call(path, "--state-space", "--poles", "4")
+            with numpy.load(path.with_suffix(".state_space.npz")) as file:
+                self.assertTrue(1.0e-3 < file["deviation"] < 1.0e-2)
+        self.assertEqual((status, "warning" in said, "largest deviation" in said), (0, False, True), said)
+
     def test_data_that_determine_nothing_are_refused(self):
         wanted = made_up(False)(1j*self.frequency)
         for take, poles in ((slice(4), None), ([0, 1, 1, 2, 3, 4], None), (slice(6), 5), (slice(None), 0), (slice(None), 25)):

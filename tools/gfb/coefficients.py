@@ -30,8 +30,9 @@ PLANE = (("xx", 0, 0), ("xy", 0, 1), ("yx", 1, 0), ("yy", 1, 1))  # name, row, c
 ROSS_3 = "3: a table over the speed of the shaft (rows) and the frequency of vibration"
 MOTIONS = (4, 3)  # of a journal, and of a runner: e_z, phi_x, phi_y
 SAME = 1.0e-9  # relative difference of speeds that are one, typed in rpm or computed
-LARGE = 1.0e-3  # deviation of a fit that is warned of
-REFUSED = 1.0e-2  # and that is refused, unless it is asked for
+REFUSED = 1.0e-2  # deviation of a fit that is refused, unless it is asked for
+TILTS_LOST = ("a thrust bearing: ROSS's element has its stiffness and damping along the axis (kzz, czz) alone; those against a tilt of the runner are "
+              "lost, and across the axis it carries nothing")
 ABOUT = ("x' = A x + B a, force on the shaft = -(C x + D a + E a'), all changes against the steady state. a: displacement of "
          "the shaft along x, y [m], rotation about x, y [rad]; force: along x, y [N], torque about x, y [N m]. A [1/s], "
          "poles [rad/s] are its eigenvalues; frequencies [rad/s] between which it was fitted. deviation: largest relative one "
@@ -42,7 +43,7 @@ def read_coefficients(path, point=None):
     """Frequencies [rad/s], K and C (frequency, row, column) in SI; of a sweep those of a point, counted from 1."""
     with reading(path), open_results(path) as file:
         if "dynamics" not in file:
-            raise ValueError("no stiffness and damping in it; they are of analysis = 'linear_dynamics'")
+            raise Unreadable(f"{path}: {why_none(file)}")
         frequency, *both = (file[f"dynamics/{name}"].astype(float)[...] for name in ("frequency", "stiffness", "damping"))
         swept = both[0].ndim == 4
         if swept:
@@ -56,6 +57,14 @@ def read_coefficients(path, point=None):
         if any(values.shape not in ((len(frequency), n, n) for n in MOTIONS) for values in both):
             raise ValueError("stiffness and damping are neither 4 x 4 a frequency, nor 3 x 3 of a thrust bearing")
         return frequency, *both
+
+
+def why_none(file):
+    """Why a result file has no stiffness and damping: its run has no answer, or is of another analysis."""
+    said = {name: text_of(file[f"summary/{name}"][()]) for name in ("outcome", "reason") if f"summary/{name}" in file}
+    if said:
+        return f"there is no answer, so neither stiffness nor damping ({': '.join(said.values())})"
+    return "no stiffness and damping in it; they are of analysis = 'linear_dynamics'"
 
 
 def read_sweep(path, refusal):
@@ -196,7 +205,7 @@ def state_space_writer(options, data):
     if not (largest < REFUSED or options.accept_deviation):
         stop(f"{options.file}: no state space: these equations are {100.0*largest:.2g} % off the bearing's: they need more poles, or more frequencies, "
              "wider or denser; a loss factor, or a film that is unstable under a fixed shaft, has none with stable poles. --accept-deviation writes them")
-    if not largest < LARGE:
+    if not largest < REFUSED:
         say("warning: these equations are not those of the bearing: they need more poles, or more frequencies, wider or denser; "
             "a loss factor, or a film that is unstable under a fixed shaft, has none with stable poles")
     content = dict(zip("ABCDE", made.matrices()), poles=made.all_poles, frequency=frequency, deviation=made.deviation,
@@ -255,4 +264,7 @@ def main():
         except OSError as error:
             stop(f"{path}: {error.strerror}", 3)
         print(f"written: {path}{words}")
+        used = over if path == options.ross and over_speed else data
+        if path == options.ross and used is not None and used[-1].shape[-1] < MOTIONS[0]:
+            say(f"{options.file}: {TILTS_LOST}")
     return 0

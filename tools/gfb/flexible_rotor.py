@@ -12,8 +12,8 @@ from typing import Any
 import numpy
 
 from gfb.case import Case
-from gfb.coefficients import SAME, columns_of, is_sweep, read_at_speed, read_speeds, read_synchronous, speeds_of
-from gfb.members import find_member, run_member
+from gfb.coefficients import SAME, TILTS_LOST, columns_of, is_sweep, read_at_speed, read_speeds, read_synchronous, speeds_of
+from gfb.members import find_member, run_member, warn
 
 HOW_TO_INSTALL = ("pip install './tools[ross]' in a checkout of gfb; before Python 3.12 that is pip install 'ross-rotordynamics==2.3.0' 'plotly<6', "
                   "for ROSS 2.3 cannot be imported with plotly 6 and newer, else 'ross-rotordynamics>=3'")
@@ -47,7 +47,7 @@ def ross_bearings(bearings: Any, nodes: int | Sequence[int], speed_rpm: float | 
     bearings: a result of `analysis = 'linear_dynamics'`, its .h5 file, or a case, which is run in the folder; or several, one
     a node. One alone stands at all nodes. Of one speed, or with `speed_rpm` from a sweep over it, the elements have tables over the
     frequency of vibration. A whole sweep gives tables over speed and frequency, which ROSS 3 has; `synchronous` tables over
-    the speed, of the frequency that equals it, for the response to unbalance. Raises ImportError without ROSS, ValueError where the
+    the speed, of the frequency that equals it, for the response to unbalance. Of a thrust bearing a warning says what ROSS has no place for. Raises ImportError without ROSS, ValueError where the
     call, `gfb.results.Unreadable` where a file is wrong."""
     ross = import_ross()
     nodes = [nodes] if isinstance(nodes, int) else list(nodes)
@@ -61,6 +61,9 @@ def ross_bearings(bearings: Any, nodes: int | Sequence[int], speed_rpm: float | 
     if not synchronous and speed_rpm is None:
         check_speeds(paths, two)
     tables = [table_of(path, speed_rpm, synchronous, two) for path in paths]
+    thrust = [path.stem for path, (_, columns) in zip(paths, tables) if "kzz" in columns]
+    if thrust:
+        warn(f"{', '.join(thrust)}: {TILTS_LOST}")
     if len(tables) == 1:
         paths, tables = len(nodes)*paths, len(nodes)*tables
     return [element(ross, node, path.stem, *table) for node, path, table in zip(nodes, paths, tables)]
@@ -87,8 +90,9 @@ def file_of(bearing: Any, number: int, folder: pathlib.Path, gfb: str | os.PathL
         return pathlib.Path(f"{bearing.stem}.h5")
     folder.mkdir(parents=True, exist_ok=True)
     stem = folder/f"bearing_{number}"
-    if not (find_member(bearing, stem, gfb) or run_member(bearing, stem, gfb)).converged:
-        raise ValueError(f"{stem}.nml: there is no answer, so neither stiffness nor damping")
+    result = find_member(bearing, stem, gfb) or run_member(bearing, stem, gfb)
+    if not result.converged:
+        raise ValueError(f"{stem}.nml: there is no answer, so neither stiffness nor damping ({result.reason})")
     return pathlib.Path(f"{stem}.h5")
 
 
