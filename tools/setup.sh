@@ -25,7 +25,7 @@ test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py pyth
 # shellcheck disable=SC2034
 package_packages=(dpkg-dev file patchelf python3-pip python3-setuptools python3-wheel)
 # shellcheck disable=SC2034
-long_packages=("${package_packages[@]}" python3-sphinx python3-myst-parser libjs-mathjax)
+long_packages=("${package_packages[@]}" libjs-mathjax)
 libraries='gfortran, a C compiler, CMake 3.21, Ninja, pkg-config, Open MPI or another MPI, PETSc 3.18 with
   MUMPS, SLEPc 3.18, HDF5 for that MPI with its Fortran interface, METIS, BLAS and LAPACK, Python 3'
 

@@ -56,10 +56,10 @@ def main():
     parser.add_argument("--names", type=pathlib.Path, default=ROOT/"tools/gfb/result_names.py", metavar="FILE",
                         help="names of results for type checkers; default: tools/gfb/result_names.py of this checkout")
     parser.add_argument("--html", type=pathlib.Path, nargs="?", const=ROOT/"build/manual", metavar="DIR",
-                        help="only make this version's HTML pages in DIR, by default build/manual; needs Sphinx, MyST and MathJax")
+                        help="only make this version's HTML pages in DIR, by default build/manual; needs Sphinx, MyST, Furo and MathJax")
     options = parser.parse_args()
     if options.html:
-        need_packages("sphinx", "myst_parser")
+        need_packages("sphinx", "myst_parser", "furo")
         from gfb.html.main import make_manual  # what else tools/manual does needs no Sphinx
         return make_manual(options.html.resolve())
     gfb = find_gfb(options.gfb)

@@ -17,12 +17,10 @@ myst_heading_anchors = 4
 myst_update_mathjax = False  # that is for MathJax 3; Debian has 2
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
 mathjax2_config = {"SVG": {"linebreaks": {"automatic": True}}}
-html_theme = "alabaster"
-html_theme_options = {"page_width": "82em", "sidebar_width": "15em", "fixed_sidebar": True, "body_max_width": "none", "font_size": "15px", "font_family": "sans-serif",
-                      "show_powered_by": False, "show_relbar_bottom": True}
-html_sidebars = {"**": ["version.html", "searchbox.html", "navigation.html"]}
+html_theme = "furo"
+html_title = "gfb"
+html_sidebars = {"**": ["sidebar/brand.html", "version.html", "sidebar/search.html", "sidebar/scroll-start.html", "sidebar/navigation.html", "sidebar/scroll-end.html"]}
 templates_path = ["templates"]
-pygments_style = "default"  # its colours can be read on grey; the theme's green cannot
 html_static_path, html_css_files = ["static"], ["manual.css"]
 html_copy_source = False
 html_show_sourcelink = False
