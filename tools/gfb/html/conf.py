@@ -27,16 +27,21 @@ html_show_sourcelink = False
 html_show_search_summary = False  # a browser reads no other page of a folder
 
 WAY = {
-    "Tutorials": ["README", "first_steps", "first_bearing", "first_thrust_bearing", "data_sheet", "first_sweep", "misaligned_shaft", "three_pad_rotor", "first_strip", "python"],
-    "How to": ["model_and_mesh", "accuracy", "bearing_mesh", "bearing", "strip", "sweeps", "branches", "pads", "gas_and_bore", "heat", "dynamics", "ensembles", "cluster", "linear_solvers",
-               "restart", "no_answer", "failures", "*"],
-    "Reference": ["keys", "results", "CHANGELOG", "references"],
+    "Tutorials": ["README", "first_steps", "first_bearing", "first_thrust_bearing", "data_sheet", "first_sweep", "misaligned_shaft",
+                  "three_pad_rotor", "flexible_rotor", "first_strip"],
+    "Static answers": ["model_and_mesh", "bearing", "pads", "thrust", "cone", "gas_and_bore", "heat", "assembly", "capacity", "branches", "sweeps",
+                       "bearing_mesh", "accuracy"],
+    "Dynamics": ["coefficients", "stability", "foil_damping", "state_space", "transient", "periodic"],
+    "Strips": ["strip", "strips_as_built"],
+    "Design and statistics": ["design", "sensitivity", "optimize", "sample"],
+    "Running": ["no_answer", "failures", "restart", "ensembles", "cluster", "linear_solvers", "python", "studio", "*"],
+    "Reference": ["keys", "results", "result_files", "CHANGELOG", "glossary", "references"],
     "Theory": ["frame", "equations", "method", "companions"],
-    "Validation": ["gallery/README", "work_precision", "scaling", "hard_cases", "*"],
+    "Measured": ["gallery/README", "bearings", "comparisons", "dynamics", "work_precision", "scaling", "hard_cases", "*"],
     "Developers": ["*"],
 }
 MODULES = {root_doc: "../api/index.html", "docs/developer/architecture": "../../api/index.html"}  # links to FORD's pages
-PLACES = {"Validation": "docs/measured", "Developers": "docs/developer"}
+PLACES = {"Measured": "docs/measured", "Developers": "docs/developer"}
 
 
 def place(name, part):
