@@ -214,6 +214,8 @@ class ReportTest(unittest.TestCase):
         self.assertIn("No limit is known for temperature, stress.", verdict(film | hot, wanted)[0])
         self.assertEqual(margins_of(Results(film, gfb.Case(SMALL | {"scene": {"analysis": "load_capacity"}} | wanted))), [])
         self.assertEqual(sentence([Margin("film", "4 um")], "No answer was found."), "No answer was found.")
+        parts = [Margin("film", "4 um", "2 um are wanted", 2.0), Margin("orbit", "orbit under G 2.5", "no answer")]
+        self.assertEqual((sentence(parts), parts[1].sign), ("The one known limit is kept, that of film: 4 um, 2 um are wanted: 2 times what is needed. No answer: orbit.", "✗ no answer"))
 
     def test_page_and_terminal_begin_with_the_same_words(self):
         runs = [read_run(self.folder/name, None, pictures=False) for name in ("first", "second")]

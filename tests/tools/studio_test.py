@@ -19,6 +19,9 @@ import tempfile
 import time
 import unittest
 
+import matplotlib
+import numpy
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 from chromium import BROWSER, Browser  # noqa: E402
 from gfb.case import Case  # noqa: E402
@@ -273,6 +276,15 @@ class Places(InFolder):
         with concurrent.futures.ThreadPoolExecutor(8) as pool:
             done = [text for text in pool.map(save, map(str, range(40))) if text]
         self.assertEqual([(self.folder/"small.nml").read_text(encoding="utf-8")], done)
+
+    def test_pictures_look_as_those_of_the_report(self):
+        """Colours of curves and the font are those of tools/plot, and pages have the font, too."""
+        layout = pictures.curves([("one", {"a": numpy.arange(3.0), "b": numpy.arange(3.0)}, {"a": "m", "b": "Pa"})], "a", "b")["layout"]
+        colours, font = [one["color"] for one in matplotlib.rcParams["axes.prop_cycle"]], matplotlib.rcParams["font.sans-serif"][0]
+        self.assertEqual((list(layout["colorway"]), layout["font"]["family"].split(", ")[0]), (colours, font))
+        self.assertEqual((layout["xaxis"]["title"]["text"], layout["yaxis"]["title"]["text"]), ("a [um]", "b [kPa]"))
+        for page in ("report/page.html", "studio/page.css"):
+            self.assertRegex((ROOT/"tools/gfb"/page).read_text(encoding="utf-8"), rf'body {{[^}}]*"{font}", Verdana, sans-serif')
 
     def test_what_stands_beside_a_result_is_no_link(self):
         """Neither the result nor a companion of it is taken from elsewhere, or waited for."""

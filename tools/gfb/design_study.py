@@ -25,7 +25,7 @@ from gfb.case import Case, CaseError
 from gfb.design_work import Part, Progress, compute_all, tilt_words
 from gfb.report.glance import Results, carried_by
 from gfb.report.main import read_run, write_page
-from gfb.report.verdict import ONSET, Margin, compared, margins_of, not_computed, sentence
+from gfb.report.verdict import NO_ANSWER, ONSET, Margin, compared, margins_of, not_computed, sentence
 from gfb.results import read_history
 from gfb.running import Result
 from gfb.tool import RunError, draw_into_files, parser_of, say
@@ -238,7 +238,7 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
         if run is None or part.name == "tolerances":
             continue
         if not run["converged"]:
-            found.append(Margin(part.name.replace("_", "-"), part.question, "no answer", None, True))
+            found.append(Margin(part.name.replace("_", "-"), part.question, NO_ANSWER))
         elif part.name == "directions":
             angles, films = column(run, "load_angle"), column(run, "minimum_gap")
             worst = min(range(len(films)), key=films.__getitem__)

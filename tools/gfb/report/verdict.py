@@ -13,8 +13,9 @@ from gfb.report.glance import KELVIN, Results, carried_by
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
 AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
+NO_ANSWER = "no answer"  # of a part of a study
 ONSET = "onset of whirl at"
-SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known"}
+SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known", "missing": "✗ no answer"}
 
 
 @dataclasses.dataclass
@@ -31,7 +32,7 @@ class Margin:
     @property
     def state(self) -> str:
         """Which of SIGNS."""
-        return "broken" if self.is_broken else "kept" if self.limit else "unknown"
+        return "missing" if self.limit == NO_ANSWER else "broken" if self.is_broken else "kept" if self.limit else "unknown"
 
     @property
     def sign(self) -> str:
@@ -171,7 +172,8 @@ def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequenc
     broken = [one for one in margins if one.state == "broken"]
     kept = [one for one in margins if one.state == "kept"]
     broken.sort(key=lambda one: one.factor if one.factor is not None else 1.0)  # what has a number says by how much
-    known = {one.subject for one in broken + kept}
+    missing = list(dict.fromkeys(one.subject for one in margins if one.state == "missing"))
+    known = {one.subject for one in broken + kept} | set(missing)
     without = list(dict.fromkeys(one.subject for one in margins if one.subject not in known))
     words = []
     if broken:
@@ -183,6 +185,8 @@ def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequenc
                      else f"The one known limit is kept, that of {near.subject}: {near.words()}.")
     if without:
         words.append(f"No limit is known for {', '.join(without)}" + ("." if known else f": {margins[0].value}."))
+    if missing:
+        words.append(f"No answer: {', '.join(missing)}.")
     if open_questions:
         words.append(f"Not computed: {', '.join(open_questions)}.")
     return " ".join(words)

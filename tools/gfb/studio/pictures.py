@@ -7,6 +7,7 @@ import pathlib
 import numpy
 
 from gfb.files import kept_within
+from gfb.plot.colours import FONT, LINES
 from gfb.plot.foil import is_foil, names, round_scale, shape_of
 from gfb.plot.ring import TRAVEL
 from gfb.plot.rolled import drawn_larger, paths_of, read_shaft, read_surface
@@ -18,7 +19,7 @@ from gfb.tables import readable
 
 MOST = 240     # stations, or rows, of a drawn surface
 POINTS = 5000  # of a curve
-LOOK = {"margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "font": {"size": 11}, "modebar": {"bgcolor": "white", "color": "#aaa"}}
+LOOK = {"margin": {"l": 0, "r": 0, "t": 10, "b": 0}, "font": {"size": 12, "family": FONT}, "colorway": LINES, "modebar": {"bgcolor": "white", "color": "#aaa"}}
 EYE = {"x": 1.35, "y": -1.75, "z": 1.05}  # from where a surface is seen, its sides being about 1
 MODES = {"responsive": True, "displaylogo": False}
 POINTS_PICTURE, FOILS, POINT = "points", "foils", "number of the point or step"
