@@ -130,7 +130,7 @@ def show_answer(run, number):
                 ui.label("Of the last point or load step.")
             with ui.element("div").classes("margins"):
                 for one in run["margins"]:
-                    ui.label(f"{one.subject}: {one.value}")
+                    ui.label(f"{one.subject}: {one.value}{f' ({one.where})' if one.where else ''}")
                     ui.label(", ".join(filter(None, (one.limit, one.times))))
                     ui.label(one.sign).classes(f"sign {one.state}")
         with ui.element("div").classes("glance"):
