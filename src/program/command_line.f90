@@ -37,6 +37,7 @@ module gfb_command_line
     logical :: short = .false.   !! of a template only what the case needs
     character(len=:), allocatable :: explain  !! key, result, ... to explain; empty: none
     logical :: csv = .false.     !! history, motion or orbits as comma-separated values, too
+    logical :: decimal_comma = .false. !! in these tables, between semicolons
     logical :: quiet = .false.   !! a line a stage and no more
     logical :: verbose = .false. !! a line per iteration
     character(len=:), allocatable :: words !! the whole line
@@ -46,10 +47,11 @@ module gfb_command_line
     procedure :: context => run_context, informs
   end type command_line_type
 
-  character(len=20), parameter :: options(21) = [character(len=20) :: &
+  character(len=20), parameter :: options(22) = [character(len=20) :: &
     '--branches', '--check', '--output', '--restart', '--help', '--partition', '--version', &
     '--keys', '--quiet', '--petsc', '--petsc-options-file', '--groups', '--name', '--results', &
-    '--strict', '--time-limit', '--template', '--explain', '--csv', '--verbose', '--short']
+    '--strict', '--time-limit', '--template', '--explain', '--csv', '--verbose', '--short', &
+    '--decimal-comma']
 
 contains
 
@@ -166,6 +168,8 @@ contains
       line%csv = .true.
     case ('--short')
       line%short = .true.
+    case ('--decimal-comma')
+      line%decimal_comma = .true.
     case ('--quiet')
       line%quiet = .true.
     case ('--verbose')
@@ -346,7 +350,8 @@ contains
     context%folder = self%folder
     context%command = self%words
     context%petsc_options = given_petsc_options()
-    context%csv = self%csv
+    context%csv%wanted = self%csv
+    context%csv%decimal_comma = self%decimal_comma
     context%resumes = self%restart
     context%start_time = wall_time()
     context%log = log
@@ -376,6 +381,7 @@ contains
       '  --verbose       a line per iteration, too'//next// &
       '  --csv           write history, motion or orbits as CASE.csv, too (a sweep does '// &
       'anyway)'//next// &
+      '  --decimal-comma  these tables with 1,5 for one and a half, and ; between columns'//next// &
       '  --groups N      divide the ranks into N groups, and among them the points of'//next// &
       '                  the case''s sweep, or several cases: CASE1.nml CASE2.nml ...'//next// &
       '  --name NAME     of the table of several cases; default: ensemble'//next// &
@@ -383,7 +389,7 @@ contains
       '                  meaning; A: equilibrium, fixed_position, strip, modes,'//next// &
       '                  linear_dynamics, load_capacity, lift_off,'//next// &
       '                  misalignment_allowance, transient, periodic, thrust'//next// &
-      '                  --short: only what the case needs, 25 lines; then A may be a'//next// &
+      '  --short         of --template only what the case needs, 25 lines; A may be a'//next// &
       '                  topic of --explain, too'//next// &
       '  --explain NAME  a key (or group%key), a group, the name of a result, a value of'//next// &
       '                  a key, or a word of the field; --explain topics lists these;'//next// &

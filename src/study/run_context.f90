@@ -3,6 +3,7 @@
 module gfb_run_context
   use gfb_kinds, only: wp
   use gfb_c_library, only: make_folder
+  use gfb_case_file, only: csv_settings_type
   use gfb_errors, only: error_type
   use gfb_run_log, only: run_log_type
   use gfb_petsc_session, only: this_rank, share_failure
@@ -38,7 +39,7 @@ module gfb_run_context
     character(len=:), allocatable :: command !! the whole command line
     character(len=:), allocatable :: petsc_options !! that were given; not allocated: not asked
     character(len=:), allocatable :: reduction !! that the program chose, and why; empty: none
-    logical :: csv = .false.                 !! history, motion or orbits as a table, too
+    type(csv_settings_type) :: csv           !! history, motion or orbits as a table
     logical :: resumes = .false.             !! from the scene's restart file, where there is one
     real(wp) :: start_time = 0.0_wp          !! of the run [s]
     type(run_log_type) :: log

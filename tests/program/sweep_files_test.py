@@ -64,6 +64,22 @@ def check_motions(checks, folder):
         checks.that(f"{analysis}: a first column, and rows", first in table_of(answer)[0] and len(table_of(answer)[2]) >= (20 if first == "time" else 1))
 
 
+def check_decimal_commas(checks, folder):
+    """The same tables, with semicolons between columns and commas in numbers."""
+    content = case_groups(BEARING, mesh=(24, 4), number=2.0, load=(-20.0, 0.0), groups={
+        "model": {"foil": "elastic_foundation", "foundation_stiffness": 4.8e9}, "dynamics": {"frequency_ratios": (0.5, 1.0)}})
+    content["scene"] = content.get("scene", {}) | {"analysis": "linear_dynamics"}
+    tables = []
+    for name, options in (("point", ("--csv",)), ("comma", ("--csv", "--decimal-comma"))):
+        stem = solve(folder, name, content, options=options).stem
+        tables.append([pathlib.Path(f"{stem}.{ending}").read_text(encoding="utf-8") for ending in ("csv", "coefficients.csv")])
+    for (plain, other), fixed in zip(zip(*tables), (("wall_time", "peak_memory"), ())):
+        rows = [[line.split(mark) for line in text.splitlines()] for text, mark in ((plain, ","), (other, ";"))]
+        kept = [i for i, head in enumerate(rows[0][0]) if head.partition(" [")[0] not in fixed]
+        checks.that(f"decimal commas: {len(rows[0])} lines", len(rows[0]) > 1 and "." not in other and "," in other)
+        checks.that("decimal commas: the same", [[row[i] for i in kept] for row in rows[0]] == [[row[i].replace(",", ".") for i in kept] for row in rows[1]])
+
+
 def check_heat(checks, folder):
     """With heat the log's table has the running clearance and temperatures, to the digits of the history."""
     hot = sweep(folder, "hot", {"parameter": "load", "values": (20.0, 30.0)}, heat=HEAT)
@@ -101,6 +117,7 @@ def main():
         check_table(checks, sweep(folder, "single", None, options=("--csv",)), 1)
         check_heat(checks, folder)
         check_motions(checks, folder)
+        check_decimal_commas(checks, folder)
     checks.close()
 
 

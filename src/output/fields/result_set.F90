@@ -10,7 +10,8 @@ module gfb_result_set
   use gfb_petsc_session, only: this_rank, rank_count, share_failure
   use gfb_file_set, only: unfinished_file_type, publish, drop_unfinished, has_answer, remove_unanswered
   use gfb_result_file, only: result_file_type
-  use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text, table_csv
+  use gfb_case_file, only: history_row_type, case_array_type, write_case_file, summary_text, table_csv, &
+                           with_decimal_commas, csv_settings_type
   use gfb_grid, only: result_grid_type, write_grid_file
   use gfb_grid_series, only: grid_series_type, begin_step, add_surface, write_series_file
   use gfb_text_file, only: write_unfinished_text
@@ -34,7 +35,7 @@ contains
     type(history_row_type), intent(in) :: history(:) !! a row for each point or step
     type(case_array_type), intent(in) :: arrays(:) !! further arrays of the result file
     type(result_grid_type), intent(in) :: grids(:) !! surfaces, a file each
-    logical, intent(in) :: csv !! history, motion or orbits also as a table, which a sweep has anyway
+    type(csv_settings_type), intent(in) :: csv !! history, motion or orbits as a table
     type(run_log_type), intent(in) :: log !! where lines go
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
@@ -51,7 +52,7 @@ contains
     names = stem//'.summary, .h5'
     played = 0
     if (present(series)) played = surfaces_of(series)
-    allocate (files(size(grids) + played + merge(4, 3, csv .or. scene%sweep%present)))
+    allocate (files(size(grids) + played + merge(4, 3, csv%wanted .or. scene%sweep%present)))
     call write_case_file(stem//'.h5', PETSC_COMM_WORLD, this_rank() == 0, scene%verbatim, &
                          scene%echo, provenance, summary, history, arrays, file, error, columns)
     call share_failure(error)
@@ -75,8 +76,9 @@ contains
       files(1 + size(grids) + i) = file%written
     end do
     table = ''
-    if (csv .or. scene%sweep%present) then
+    if (csv%wanted .or. scene%sweep%present) then
       table = table_csv(history, arrays, columns)
+      if (csv%decimal_comma) table = with_decimal_commas(table)
       names = names//', .csv'
     end if
     if (this_rank() == 0) call keep_all(stem, files, summary, table, scene, error)

@@ -11,7 +11,7 @@ module gfb_case_file
   implicit none (type, external)
   private
   public :: write_case_file, write_quantities, write_history, summary_text, fill_array, &
-            add_array, table_csv, history_values, visit_rows, visit_arrays
+            add_array, table_csv, with_decimal_commas, history_values, visit_rows, visit_arrays
 
   !> One row of the history: the quantities of a sweep point or load step.
   type, public :: history_row_type
@@ -29,6 +29,12 @@ module gfb_case_file
     !> a row is a square matrix of that order, row by row, or, by step, several of them
     integer :: order = 0
   end type case_array_type
+
+  !> Whether and how a table of comma-separated values is written.
+  type, public :: csv_settings_type
+    logical :: wanted = .false. !! of what is no sweep, too, which has one anyway
+    logical :: decimal_comma = .false. !! in numbers; semicolons are between them
+  end type csv_settings_type
 
 contains
 
@@ -241,6 +247,20 @@ contains
       used = used + length
     end subroutine put_line
   end function csv_lines
+
+  !> Comma-separated values with commas in their numbers, and semicolons between them, as
+  !> spreadsheets of many countries read them.
+  pure function with_decimal_commas(table) result(other)
+    character(len=*), intent(in) :: table !! lines whose names and units have neither
+    character(len=len(table)) :: other
+    integer :: i
+
+    other = table
+    do i = 1, len(table)
+      if (table(i:i) == ',') other(i:i) = ';'
+      if (table(i:i) == '.') other(i:i) = ','
+    end do
+  end function with_decimal_commas
 
   !> The numbers of a name, a row each; NaN where a row has none [their unit].
   function history_values(history, name) result(values)

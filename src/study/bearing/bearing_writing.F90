@@ -9,7 +9,7 @@ module gfb_bearing_writing
   use gfb_petsc_session, only: this_rank, share_failure
   use gfb_sweep_case, only: sweep_keys
   use gfb_bearing_record, only: bearing_record_type, sweep_name, sweep_unit, add_row
-  use gfb_case_file, only: case_array_type, history_row_type, history_values
+  use gfb_case_file, only: case_array_type, history_row_type, history_values, with_decimal_commas
   use gfb_contact_record, only: add_foil_contacts
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamics_record, only: add_dynamics_arrays, dynamics_table
@@ -109,7 +109,7 @@ contains
     type(scene_type), intent(in) :: scene !! whose name the file has
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    character(len=:), allocatable :: name
+    character(len=:), allocatable :: name, table
     real(wp) :: values(size(record%history))
     integer :: i
 
@@ -119,7 +119,9 @@ contains
     if (scene%sweep%present) name = column_name(scene)
     values = [(number_in(record%history(i)%quantity, name), i=1, size(values))]
     if (this_rank() == 0) then
-      call write_text_file(context%folder//'/'//scene%name//'.coefficients.csv', dynamics_table(record%dynamics, name, values), error)
+      table = dynamics_table(record%dynamics, name, values)
+      if (context%csv%decimal_comma) table = with_decimal_commas(table)
+      call write_text_file(context%folder//'/'//scene%name//'.coefficients.csv', table, error)
     end if
     call share_failure(error)
     if (.not. allocated(error)) call context%log%line('table of coefficients: '//scene%name//'.coefficients.csv')

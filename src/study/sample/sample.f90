@@ -11,7 +11,8 @@ module gfb_sample
   use gfb_analysis_row, only: analysis_row_type
   use gfb_bump_heights, only: even_deviations
   use gfb_bearing_summary, only: cost_type, cost_quantities
-  use gfb_case_file, only: case_array_type, history_row_type, add_array, history_values
+  use gfb_case_file, only: case_array_type, csv_settings_type, history_row_type, add_array, &
+                           history_values
   use gfb_errors, only: error_type, status_machine
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity, quantity_word
   use gfb_result_names, only: asked_names, result_unit, result_meaning, add_result
@@ -99,7 +100,8 @@ contains
     call show_members(members, ranks, context%log)
     call add_outcome(summary, converged, reason)
     call write_result_set(scene, context%folder, converged, origin, summary, rows, arrays, &
-                          no_grid, .true., context%log, error)
+                          no_grid, csv_settings_type(.true., context%csv%decimal_comma), &
+                          context%log, error)
   end subroutine write_sample
 
   !> A text without what follows its first line.
