@@ -218,15 +218,30 @@ make_target() {
   cmake --build "$1" --target "$2" 2>&1 9>&- | tee -- "$3" | show_progress
 }
 
-# A line now and then, none where the build is short.
+# A line now and then with the time left, none where the build is short.
 show_progress() {
-  local line next=$((SECONDS + 3))
+  local line began=$SECONDS next=$((SECONDS + 3)) done_of
   while IFS= read -r line; do
     if [[ $line == '['*/*']'* ]] && ((SECONDS >= next)); then
-      say "building ${line%%]*}]"
-      next=$((SECONDS + 15))
+      done_of=${line%%]*}
+      done_of=${done_of#[}
+      say "building $done_of$(time_left "$((SECONDS - began))" "${done_of%/*}" "${done_of#*/}")"
+      next=$((SECONDS + 10))
     fi
   done
+}
+
+# time_left SECONDS DONE ALL: the same pace to the end; nothing where that would be a guess.
+time_left() {
+  local left
+  [[ $2 =~ ^[0-9]+$ && $3 =~ ^[0-9]+$ ]] || return 0
+  (($1 >= 5 && $2 >= 20)) || return 0
+  left=$(($1 * ($3 - $2) / $2))
+  if ((left >= 90)); then
+    printf ', about %s min left' "$(((left + 30) / 60))"
+  else
+    printf ', about %s s left' "$left"
+  fi
 }
 
 # A build folder belongs to one checkout and one set of libraries; another starts it afresh.
