@@ -293,15 +293,19 @@ contains
     call self%warned('warning: '//words)
   end subroutine run_log_warning
 
-  !> Tells warnings, and keeps those that are new for the end.
+  !> Tells warnings that are new, such as one that every point of a sweep has, and keeps them for
+  !> the end.
   subroutine run_log_warned(self, words)
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! lines that say that they are warnings
     character(len=1), parameter :: next = new_line('a')
 
-    call self%tell(coloured(self%colours, yellow, words))
-    if (self%silent .or. .not. (self%active .and. associated(self%memory))) return
+    if (self%silent .or. .not. (self%active .and. associated(self%memory))) then
+      call self%tell(coloured(self%colours, yellow, words))
+      return
+    end if
     if (index(self%memory%warnings, words//next) > 0) return
+    call self%tell(coloured(self%colours, yellow, words))
     self%memory%warnings = self%memory%warnings//words//next
   end subroutine run_log_warned
 
