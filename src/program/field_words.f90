@@ -24,7 +24,7 @@ module gfb_field_words
       'frequency: synchronous ones are those at frequency ratio 1', &
       'dynamics%frequency_ratios dynamics%frequencies', &
       'stiffness_xx stiffness_xy stiffness_yx stiffness_yy damping_xx damping_xy '// &
-      'damping_yx damping_yy', 'linear_dynamics', '', 'dynamics'), &
+      'damping_yx damping_yy', 'linear_dynamics', '', 'coefficients'), &
     field_word_type('axial_stiffness kzz czz tilting_stiffness', &
       'K and C of a thrust bearing along its axis, and against a tilt of the runner', &
       'dynamics%frequency_ratios', 'stiffness_zz damping_zz stiffness_phixphix', '', '', &
@@ -63,11 +63,11 @@ module gfb_field_words
     field_word_type('whirl subsynchronous subsynchronous_whirl threshold_speed onset_speed '// &
       'stability', 'self-excited vibration below the speed: from which mass or speed on it grows', &
       'rotor%mass sweep%parameter', 'critical_mass whirl_ratio onset_speed_rpm growth_rate', &
-      'linear_dynamics', 'rotor', 'dynamics'), &
+      'linear_dynamics', 'rotor', 'stability'), &
     field_word_type('critical_speed natural_frequency campbell rotor_mode', &
       'frequency and damping of the rotor on this bearing; of natural modes of a foil, '// &
       "analysis = 'modes'", 'rotor%mass dynamics%frequency_ratios', &
-      'whirl_frequency damping_ratio growth_rate', 'linear_dynamics', 'rotor', 'dynamics'), &
+      'whirl_frequency damping_ratio growth_rate', 'linear_dynamics', 'rotor', 'stability'), &
     field_word_type('limit_cycle hopf bifurcation floquet', &
       'orbits that close, forced or self-excited, and whether they are stable', &
       'periodic%motion periodic%parameter', 'largest_multiplier orbit_stable orbit_x', &
@@ -83,7 +83,7 @@ module gfb_field_words
       'dynamics%contact_tangent', 'dissipated_energy', 'strip', '', 'strip'), &
     field_word_type('structural_damping loss_factor', &
       'the foil''s stiffness times 1 + i loss_factor', &
-      'dynamics%loss_factor foil_damping%loss_factor', 'damping_xx', '', '', 'dynamics'), &
+      'dynamics%loss_factor foil_damping%loss_factor', 'damping_xx', '', '', 'foil_damping'), &
     field_word_type('bump_stiffness foil_stiffness compliance foundation_stiffness', &
       'of springs under the film it is given, of beams and shells computed from the bumps', &
       'model%foil model%foundation_stiffness model%crest_stiffness', &

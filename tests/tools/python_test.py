@@ -237,7 +237,7 @@ class PythonTest(unittest.TestCase):
         calls = pathlib.Path(f"{nothing}.said").read_text(encoding="utf-8").splitlines()
         self.assertEqual(["--restart" in one for one in calls], [True, False])
         self.assertTrue(all("--time-limit 2 " in one for one in calls))
-        self.assertEqual(rows_of([part, Part("whirl", "whirl", case)], None)[:2],
+        self.assertEqual(rows_of([part, Part("whirl", "whirl", case)], {})[:2],
                          [("orbit", "stopped by its limit of 2 s", "before there was a state; another call goes on", True),
                           ("whirl", "not computed yet", "", False)])
 
