@@ -300,13 +300,11 @@ contains
     character(len=*), intent(in) :: words !! lines that say that they are warnings
     character(len=1), parameter :: next = new_line('a')
 
-    if (self%silent .or. .not. (self%active .and. associated(self%memory))) then
-      call self%tell(coloured(self%colours, yellow, words))
-      return
+    if (self%active .and. associated(self%memory) .and. .not. self%silent) then
+      if (index(self%memory%warnings, words//next) > 0) return
+      self%memory%warnings = self%memory%warnings//words//next
     end if
-    if (index(self%memory%warnings, words//next) > 0) return
     call self%tell(coloured(self%colours, yellow, words))
-    self%memory%warnings = self%memory%warnings//words//next
   end subroutine run_log_warned
 
   !> Tells all warnings again, where the answer stands, and forgets them.

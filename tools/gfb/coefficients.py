@@ -264,7 +264,8 @@ def main():
         except OSError as error:
             stop(f"{path}: {error.strerror}", 3)
         print(f"written: {path}{words}")
-        used = over if path == options.ross and over_speed else data
-        if path == options.ross and used is not None and used[-1].shape[-1] < MOTIONS[0]:
-            say(f"{options.file}: {TILTS_LOST}")
+        if path == options.ross:
+            used = over if over_speed else data
+            if used is not None and used[-1].shape[-1] < MOTIONS[0]:
+                say(f"{options.file}: {TILTS_LOST}")
     return 0

@@ -60,14 +60,17 @@ class Design:
     name: str
     margins: list[Margin] = dataclasses.field(default_factory=list)
     verdict: str = ""         # what limits the bearing, in a sentence
-    shown: dict[pathlib.Path, Any] = dataclasses.field(default_factory=dict, repr=False)  # what the page has of a part, drawn once
+    runs: dict[str, dict[str, Any]] = dataclasses.field(default_factory=dict, repr=False)  # what a part has found, by its name, read once
+    shown: dict[pathlib.Path, Any] = dataclasses.field(default_factory=dict, repr=False)   # what the page has of a part, drawn once
 
     def fill(self, smallest_gap: float, gfb: str | os.PathLike[str] | None) -> None:
         """Answers, margins and verdict by what there is of the parts."""
-        runs = {part.name: read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")} for part in self.parts if part.stem}
-        self.rows = rows_of(self.parts, runs)
-        self.margins = margins_of_parts(self.parts, runs, smallest_gap)
-        point = runs.get("point")
+        for part in self.parts:
+            if part.stem and part.name not in self.runs:
+                self.runs[part.name] = read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")}
+        self.rows = rows_of(self.parts, self.runs)
+        self.margins = margins_of_parts(self.parts, self.runs, smallest_gap)
+        point = self.runs.get("point")
         left = not_computed(Results(point["summary"], point["used"]), self.margins) if point else []
         self.verdict = sentence(self.margins, open_questions=left)
 
@@ -99,7 +102,7 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
         parts[0].case.check(gfb=gfb)
     for part in parts:
         check_part(part, gfb)
-    found = Design(parts, [], folder, name)
+    found, gap = Design(parts, [], folder, name), gap_of(case, smallest_gap)
     progress, lock = Progress(sum(part.case is not None for part in parts), tell, seconds), threading.Lock()
 
     def after(part: Part, result: Result | None, new: bool) -> None:
@@ -107,11 +110,11 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
             progress.hints["misalignment"] = words
         if filled is not None and new:
             with lock:
-                found.fill(gap_of(case, smallest_gap), gfb)
+                found.fill(gap, gfb)
                 filled(found)
 
     compute_all(parts, lambda part: folder/f"{name}_{part.name}", processes, gfb, progress, after)
-    found.fill(gap_of(case, smallest_gap), gfb)
+    found.fill(gap, gfb)
     return found
 
 

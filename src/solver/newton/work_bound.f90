@@ -47,7 +47,7 @@ contains
     self%most_work = huge(1.0_wp)
   end subroutine lift
 
-  !> Whether all factorizations are spent.
+  !> Whether all factorizations, or all work, are spent.
   pure logical function is_reached(self) result(reached)
     class(work_bound_type), intent(in) :: self !! of the search
     reached = self%spent >= self%most .or. self%work >= self%most_work
@@ -70,7 +70,7 @@ contains
     bound%work = bound%work + unknowns
   end subroutine count_factorization
 
-  !> Whether a search has spent all of them.
+  !> Whether a search has spent what it may.
   pure logical function is_spent(bound) result(spent)
     type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
 
@@ -78,7 +78,7 @@ contains
     if (associated(bound)) spent = bound%is_reached()
   end function is_spent
 
-  !> Whether a search has to end: a signal asks for it, or all factorizations are spent.
+  !> Whether a search has to end: a signal asks for it, or it has spent what it may.
   !>
   !> No solve converges then, and one that does not tells nothing of the bearing.
   logical function gives_up(bound) result(ends)

@@ -349,6 +349,7 @@ contains
     type(scene_type), intent(in) :: scene
     type(run_log_type), intent(in) :: log
     type(bearing_plan_type), intent(inout) :: plan
+
     plan%peclet = concentric_peclet(scene, plan)
     if (plan%order == film_order_biquadratic) then
       call log%line('film: Galerkin, because upwinding is for bilinear elements')
