@@ -158,7 +158,13 @@ class PythonTest(unittest.TestCase):
         case = gfb.Case(SMALL | {"rotor": {"mass": 2.0}})
         said = []
         filled = []
-        found = gfb.design(case, self.folder, smallest_gap=8.0e-6, tell=said.append, filled=lambda so_far: filled.append(list(so_far.rows)))
+
+        def fill(so_far):  # a page takes a while to draw, and other parts end meanwhile
+            filled.append(list(so_far.rows))
+            time.sleep(0.3)
+            so_far.page()
+
+        found = gfb.design(case, self.folder, smallest_gap=8.0e-6, processes=2, tell=said.append, filled=fill)
         self.assertEqual([sum(row[1] == "not computed yet" for row in rows) for rows in filled], [6, 5, 4, 3, 2, 1, 0])
         self.assertEqual([part.name for part in found.parts if part.stem is None], ["lift_off"])
         self.assertTrue(all(part.question in " ".join(said) for part in found.parts if part.stem is not None))

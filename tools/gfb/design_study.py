@@ -108,8 +108,9 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
     def after(part: Part, result: Result | None, new: bool) -> None:
         if part.name == "point" and result is not None and result.converged and (words := tilt_words(case, result.summary)):
             progress.hints["misalignment"] = words
-        if filled is not None and new:
-            with lock:
+        with lock:  # what another part has found meanwhile is not on this page yet
+            part.stem = result.stem if result is not None else None
+            if filled is not None and new:
                 found.fill(gap, gfb)
                 filled(found)
 

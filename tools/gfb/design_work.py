@@ -126,8 +126,6 @@ def compute_all(parts: Sequence[Part], stem_of: Callable[[Part], pathlib.Path], 
             with progress.lock:
                 progress.begun += 1
                 progress.tell(f"{progress.begun} of {progress.number} is there already: {part.question}")
-        if result is not None:
-            part.stem = result.stem
         filled(part, result, new)
 
     pool = concurrent.futures.ThreadPoolExecutor(max_workers=max(1, processes))
