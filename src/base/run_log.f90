@@ -28,6 +28,7 @@ module gfb_run_log
     character(len=:), allocatable :: warnings !! told so far, each with its end
     type(way_type) :: task !! of many points, members or times, for waiting lines
     type(way_type) :: step !! the way from one of them to the next
+    character(len=:), allocatable :: mesh !! of several, on which it lies; empty: there is one
     logical :: waits = .false.                !! a waiting line stands on the terminal
     integer(long) :: last_line = 0            !! count of the clock when the last one was written
   end type log_memory_type
@@ -47,7 +48,8 @@ module gfb_run_log
   contains
     procedure :: begin => run_log_begin, remember => run_log_remember, line => run_log_line
     procedure :: tell => run_log_tell, stage => run_log_stage, progress => run_log_progress
-    procedure :: is_at => run_log_is_at, is_within => run_log_is_within, waiting => run_log_waiting
+    procedure :: is_at => run_log_is_at, is_within => run_log_is_within, is_on => run_log_is_on
+    procedure :: waiting => run_log_waiting
     procedure :: detail => run_log_detail, heading => run_log_heading, warning => run_log_warning
     procedure :: warned => run_log_warned, repeat_warnings => run_log_repeat_warnings
     procedure :: complaint => run_log_complaint, judged => run_log_judged
@@ -77,6 +79,7 @@ contains
     self%memory%warnings = ''
     self%memory%task%words = ''
     self%memory%step%words = ''
+    self%memory%mesh = ''
     call system_clock(self%memory%last_line)
   end subroutine run_log_remember
 
@@ -173,6 +176,13 @@ contains
     if (associated(self%memory)) call advance(self%memory%task, words, share)
   end subroutine run_log_is_within
 
+  !> On which of several meshes the search is, for the waiting lines to come.
+  subroutine run_log_is_on(self, words)
+    class(run_log_type), intent(in) :: self !! the log
+    character(len=*), intent(in) :: words !! which one, of how many; empty: there is one
+    if (associated(self%memory)) self%memory%mesh = words
+  end subroutine run_log_is_on
+
   !> A way at its begin, or further on.
   subroutine advance(way, words, share)
     type(way_type), intent(inout) :: way
@@ -218,6 +228,7 @@ contains
       write (time, '(i0)') (now - self%begun)/rate
       line = ''
       call add_part(line, place_on(memory%task, now, rate, ' s left'))
+      call add_part(line, memory%mesh)
       call add_part(line, place_on(memory%step, now, rate, ' s to its end'))
       call add_part(line, words)
       line = '... '//trim(time)//' s: '//line

@@ -49,6 +49,8 @@ def check_case(checks, folder, words, case):
     checks.that(f"{words}: nothing unfinished left", not any(name.startswith(".gfb") for name in left))
     checks.that(f"{words}: summary says so", answer["converged"] == "false")
     checks.that(f"{words}: the log says so", "no equilibrium found: " in answer.log)
+    coarse = "no answer on the mesh of 48 x 8 (" in answer.log and "); the mesh of 96 x 16 follows" in answer.log
+    checks.that(f"{words}: the coarse mesh's end is said when it is met", coarse or "groups" in case and "sweep" in case["groups"])
     checks.that(f"{words}: and what was reached", "last state reached: load (" in answer.log)
     checks.that(f"{words}: a remedy where there is one", ("'axial_mean' in &model" in answer.log) == ("rim" in words))
     checks.that(f"{words}: only numbers", all(map(math.isfinite, answer.physical().values())))

@@ -34,7 +34,7 @@ module gfb_newton
                                linear_failure, drop_failed_factors, forget_solver
   use gfb_line_search, only: line_search_type, take_step, remaining_error, stagnation
   use gfb_secant_steps, only: secants_type, begin_secants, forget_secants, destroy_secants
-  use gfb_work_bound, only: work_bound_type, count_factorization, is_spent, gave_up_words
+  use gfb_work_bound, only: work_bound_type, count_factorization, is_spent, share_words, gave_up_words
   implicit none (type)
   private
   public :: show_enlargements, create_newton, renew_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, &
@@ -117,13 +117,14 @@ contains
   end function reason_in_words
 
   !> A line of the table of iterations.
-  subroutine show_iteration(log, iteration, residual, step, length, new_factors)
+  subroutine show_iteration(log, iteration, residual, step, length, new_factors, spent)
     type(run_log_type), intent(in) :: log !! gets the lines of progress
     integer, intent(in) :: iteration  !! 0: the start, whose line has no step
     real(wp), intent(in) :: residual  !! root mean square of the scaled residual [1]
     real(wp), intent(in) :: step      !! largest change of an unknown by the full step, relative [1]
     real(wp), intent(in) :: length    !! share of the step that was taken [1]
     logical, intent(in) :: new_factors !! the step's factors belong to its own matrix
+    character(len=*), intent(in) :: spent !! how much of what a search may cost, before the iteration; or empty
     character(len=80) :: line
 
     if (iteration == 0) then
@@ -134,7 +135,7 @@ contains
         merge('new   ', 'lagged', new_factors)
     end if
     call log%detail(trim(line))
-    call log%waiting('Newton iteration '//text(iteration)//', residual '//text(residual, 2))
+    call log%waiting(spent//'Newton iteration '//text(iteration)//', residual '//text(residual, 2))
   end subroutine show_iteration
 
   !> Says that MUMPS found its workspace too small, and how often so far.
@@ -474,7 +475,8 @@ contains
       call newton%log%line('the linear iterations did not converge: factors from here on')
       newton%linear%left = .false.
     end if
-    call show_iteration(newton%log, int(iteration), residual, newton%line%step, newton%line%length, newton%linear%fresh)
+    call show_iteration(newton%log, int(iteration), residual, newton%line%step, newton%line%length, newton%linear%fresh, &
+                        share_words(newton%settings%bound))
     if (iteration == 0) then
       if (newton%secants%used) call judge_start(newton%linear, residual)
       if (residual <= 10.0_wp*epsilon(1.0_wp) .and. newton%system%settled) reason = SNES_CONVERGED_FNORM_ABS

@@ -9,7 +9,7 @@ module gfb_work_bound
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: count_factorization, is_spent, gives_up
+  public :: count_factorization, is_spent, gives_up, share_words
 
   character(len=*), parameter, public :: gave_up_words = 'the search gave up' !! as a reason
 
@@ -21,7 +21,7 @@ module gfb_work_bound
     real(wp) :: most_work = huge(1.0_wp) !! unknowns that it may factor, each time counted
     real(wp) :: work = 0.0_wp            !! so far
   contains
-    procedure :: begin, lift, is_reached, words
+    procedure :: begin, lift, is_reached, share, words
   end type work_bound_type
 
 contains
@@ -53,6 +53,12 @@ contains
     reached = self%spent >= self%most .or. self%work >= self%most_work
   end function is_reached
 
+  !> How much of what it may cost is spent, 0 where it is not bounded [1].
+  pure real(wp) function share(self)
+    class(work_bound_type), intent(in) :: self !! of the search
+    share = max(real(self%spent, wp)/self%most, self%work/self%most_work)
+  end function share
+
   !> What a search that gave up says.
   function words(self)
     class(work_bound_type), intent(in) :: self !! of the search
@@ -69,6 +75,17 @@ contains
     bound%spent = bound%spent + 1
     bound%work = bound%work + unknowns
   end subroutine count_factorization
+
+  !> How much of what it may cost a search has spent, for lines of progress; empty below 1 %.
+  function share_words(bound) result(words)
+    type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (.not. associated(bound)) return
+    if (bound%share() < 0.01_wp) return
+    words = text(floor(100.0_wp*bound%share()))//' % of the search''s limit used, '
+  end function share_words
 
   !> Whether a search has spent what it may.
   pure logical function is_spent(bound) result(spent)

@@ -128,6 +128,7 @@ contains
     do while (size(left) > 0)
       associate (here => mesh(left(size(left))))
         if (.not. associated(here%bearing)) allocate (here%bearing, here%newton)
+        if (meshes > 1) call request%log%is_on('mesh '//text(meshes - size(left) + 1)//' of '//text(meshes)//' ('//size_words(here)//')')
         call search_mesh(request, here, before, between, error)
         if (allocated(error)) return
         if (between .and. meshes < most_meshes) then
@@ -143,7 +144,12 @@ contains
       if (associated(before)) call drop_mesh(before, spent)
       before => mesh(left(size(left)))
       left = left(:size(left) - 1)
+      if (size(left) > 0 .and. .not. before%report%converged()) then
+        call request%log%line('no answer on the mesh of '//size_words(before)//' ('//before%report%reason()//'); the mesh of '// &
+                              size_words(mesh(left(size(left))))//' follows')
+      end if
     end do
+    call request%log%is_on('')
     call mesh(1)%anchor%destroy()
     spent(3) = spent(2)
     call count_spent(newton, spent + spent_before)
@@ -192,6 +198,13 @@ contains
     spent = spent + more
   end subroutine drop_mesh
 
+  !> The elements of a mesh, around and along the axis.
+  function size_words(mesh) result(words)
+    type(mesh_type), intent(in) :: mesh
+    character(len=:), allocatable :: words
+    words = text(mesh%plan%circumferential)//' x '//text(mesh%plan%axial)
+  end function size_words
+
   !> How far the search came, in words.
   function lost_words(report, target) result(words)
     type(path_report_type), intent(in) :: report !! of the last state
@@ -230,7 +243,7 @@ contains
     if (associated(before)) mesh%heated = before%heated
     call build_mesh(request, mesh, mesh%heated, error)
     if (allocated(error)) return
-    call request%log%stage('film '//text(mesh%plan%circumferential)//' x '//text(mesh%plan%axial))
+    call request%log%stage('film '//size_words(mesh))
     if (mesh%heated) then
       call search_hot(request, mesh, before, between, settled)
       if (between .or. settled) return
@@ -287,8 +300,7 @@ contains
       call show_heat(problem, mesh%report)
       if (.not. (before%report%of_smaller .or. mesh%report%has_cause() .or. mesh%report%converged())) then
         mesh%report%of_smaller = .true.
-        if (mesh%report%ending%kind /= ending_stopped) call mesh%report%ending%add_words('', ', as the mesh of '// &
-          text(before%plan%circumferential)//' x '//text(before%plan%axial)//' has it')
+        if (mesh%report%ending%kind /= ending_stopped) call mesh%report%ending%add_words('', ', as the mesh of '//size_words(before)//' has it')
       end if
       settled = .true.
       between = .false.
@@ -333,8 +345,7 @@ contains
         report%ending = problem%refusal%ending ! of all starts, not of one
         report%of_smaller = .true.
         if (.not. problem%refusal%of_smaller .and. report%ending%kind /= ending_stopped) then
-          call report%ending%add_words('', ', as the mesh of '//text(before%plan%circumferential)//' x '// &
-                                       text(before%plan%axial)//' has it')
+          call report%ending%add_words('', ', as the mesh of '//size_words(before)//' has it')
         end if
       end if
       mesh%anchor = problem%anchor
