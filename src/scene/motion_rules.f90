@@ -89,8 +89,7 @@ contains
                      ': every amplitude is solved at every frequency')
   end subroutine check_interpolation
 
-  !> Where the whirl of `&sensitivity` has derivatives: walls stay as warm as they are under a
-  !> vibration, but not from answer to answer.
+  !> Where the whirl of `&sensitivity` has derivatives.
   subroutine check_derived_whirl(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
@@ -99,8 +98,6 @@ contains
     if (.not. derives_whirl(scene%sensitivity)) return
     call keys%rule(group, name, .not. scene%dynamics%present, 'names a result of small '// &
                    "vibrations, which needs analysis = 'linear_dynamics' and &dynamics")
-    call keys%rule(group, name, scene%thermal%present, 'names a result of small vibrations, '// &
-                   'which has no derivatives beside &thermal yet')
     call keys%rule(group, name, scene%dynamics%present .and. stands_still(keys, scene), &
                    'names a result of whirl, which needs a shaft that turns')
   end subroutine check_derived_whirl

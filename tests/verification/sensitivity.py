@@ -32,6 +32,14 @@ FILM_KEYS = ("gas%viscosity", "gas%ambient_pressure", "bearing%clearance", "bear
 SHEET = {"thickness": 1.02e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29, "fixed_edge": "trailing"}
 SMALL = {"radius": 0.0095, "length": 0.019, "clearance": 2.0e-5}  # 13 bumps
 
+WARM_GAS = {"viscosity": None, "viscosity_law": "sutherland"}
+HEAT = {"bump_conductance": 190.0, "sleeve_conductance": 1.0, "shaft_expansion": 1.2e-5, "sleeve_expansion": 1.0e-5,
+        "shaft_density": 7850.0, "shaft_youngs_modulus": 2.1e11, "shaft_poissons_ratio": 0.3, "ambient_temperature": 293.15}
+COOLED = {  # springs with a shaft that conducts along itself over a cooled channel
+    "top_foil": {"thickness": 1.02e-4}, "mesh": {"circumferential_elements": 32, "axial_elements": 8}, "bump_foil": {"height": 5.08e-4},
+    "thermal": {**HEAT, "shaft": "fin", "shaft_end_conductance": (0.1, 0.2), "cooling_flow": 5.0e-4, "channel_conductance": 100.0,
+                "channel_sleeve_conductance": 60.0, "carry_over": 0.7}}
+
 
 def with_keys(content, **changes):
     """A case with other values of some keys."""
@@ -118,13 +126,7 @@ def check_film(checks, folder):
 
 def check_heat(checks, folder):
     """Every result of heat, by walls and geometry: a shaft that conducts along itself over a cooled channel; foils as structures."""
-    heat = {"bump_conductance": 190.0, "sleeve_conductance": 1.0, "shaft_expansion": 1.2e-5, "sleeve_expansion": 1.0e-5,
-            "shaft_density": 7850.0, "shaft_youngs_modulus": 2.1e11, "shaft_poissons_ratio": 0.3, "ambient_temperature": 293.15}
-    gas = {"viscosity": None, "viscosity_law": "sutherland"}
-    cooled = with_keys(SPRINGS, gas=gas, top_foil={"thickness": 1.02e-4}, mesh={"circumferential_elements": 32, "axial_elements": 8},
-                       bump_foil={"height": 5.08e-4}, thermal={
-        **heat, "shaft": "fin", "shaft_end_conductance": (0.1, 0.2), "cooling_flow": 5.0e-4, "channel_conductance": 100.0,
-        "channel_sleeve_conductance": 60.0, "carry_over": 0.7})
+    cooled = with_keys(SPRINGS, gas=WARM_GAS, **COOLED)
     check_differences(checks, folder, "cooled", cooled, dict.fromkeys(
         ("thermal%bump_conductance", "thermal%cooling_flow", "thermal%shaft_expansion", "thermal%carry_over", "bearing%clearance",
          "operation%speed_rpm", "top_foil%thickness", "bearing%radius"), 3.0e-5), NAMES + HEAT_NAMES)
@@ -132,14 +134,14 @@ def check_heat(checks, folder):
     for name in HEAT_NAMES:
         slope = slope_name(name, "thermal%shaft_expansion")
         checks.below(f"cooled, 2 ranks: {slope}", two[slope]/one[slope] - 1.0, LIMIT)
-    touching = with_keys(SPRINGS, gas=gas, thermal={**heat, "shaft_conductance": 0.05}, top_foil={"thickness": 1.02e-4},
+    touching = with_keys(SPRINGS, gas=WARM_GAS, thermal={**HEAT, "shaft_conductance": 0.05}, top_foil={"thickness": 1.02e-4},
                          shaft_contact={"roughness": 2.0e-6, "pressure": 5.0e6, "friction": 0.1},
                          operation={"speed_rpm": 10000.0, "load": (-80.0, 3.0)})
     check_differences(checks, folder, "asperities with heat", touching, {"thermal%shaft_expansion": 3.0e-5},
                       NAMES + ("shaft_temperature", "heat_by_gas", "running_clearance"))
     plain = tuple(name for name in HEAT_NAMES if name not in ("cooling_outlet_temperature", "heat_to_channel"))
-    softening = {**heat, "shaft_conductance": 0.3, "modulus_slope": -3.0e-3}
-    check_differences(checks, folder, "shells with heat, which soften", with_keys(foils("shell", 0.1), gas=gas, thermal=softening), {
+    softening = {**HEAT, "shaft_conductance": 0.3, "modulus_slope": -3.0e-3}
+    check_differences(checks, folder, "shells with heat, which soften", with_keys(foils("shell", 0.1), gas=WARM_GAS, thermal=softening), {
         "thermal%shaft_conductance": 1.0e-4, "thermal%modulus_slope": 1.0e-4, "bump_foil%youngs_modulus": 3.0e-4,
         "bump_foil%thickness": 1.0e-4, "gas%ambient_pressure": 3.0e-5}, NAMES + STRESSES + plain)
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Derivatives of critical mass and whirl ratio: against differences of whole answers for every foil, the sums that dimensions demand,
-condensed bumps, ranks, sweeps, and where there are none."""
+with heat, condensed bumps, ranks, sweeps, and where there are none."""
 
 
 from gfb_run import run_checks, solve
-from sensitivity import FILM_KEYS, LIMIT, SPRINGS, check_differences, check_sum, derived, foils, slope_name, with_keys
+from sensitivity import COOLED, FILM_KEYS, HEAT, LIMIT, SPRINGS, WARM_GAS, check_differences, check_sum, derived, foils, slope_name, with_keys
 
 NAMES = ("critical_mass", "whirl_ratio")
 VIBRATION = {"scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequency_ratios": 1.0}}
@@ -89,6 +89,20 @@ def check_foils(checks, folder):
     check(checks, folder, "plates that lift", plates | {"model": {"foil": "plate"}}, few | {"top_foil%thickness": 1.0e-4})
 
 
+def check_heat(checks, folder):
+    """Temperatures stay under a vibration, and follow the key with the answer: a cooled channel, centrifugal growth."""
+    step = 3.0e-5
+    check(checks, folder, "springs with heat, cooled", with_keys(vibrating(SPRINGS), gas=WARM_GAS, **COOLED), dict.fromkeys(
+        ("thermal%bump_conductance", "thermal%cooling_flow", "thermal%shaft_expansion", "bearing%clearance", "operation%speed_rpm"), step))
+
+
+def check_foils_with_heat(checks, folder):
+    """Shells that soften with their temperature."""
+    shells = with_keys(light("shell", 0.1), gas=WARM_GAS, thermal={**HEAT, "shaft_conductance": 0.3, "modulus_slope": -3.0e-3})
+    check(checks, folder, "shells with heat, which soften", shells, {
+        "thermal%shaft_conductance": 1.0e-4, "thermal%modulus_slope": 1.0e-4, "bump_foil%thickness": 1.0e-4})
+
+
 def check_ranks(checks, folder):
     """The same on two ranks, though stiff contacts have most of what is rounded: of keys that leave the foils alone."""
     keys = ("gas%viscosity", "bearing%clearance", "operation%load")
@@ -132,7 +146,7 @@ def check_sweep_and_none(checks, folder):
 
 def main():
     """Runs all checks."""
-    run_checks((check_springs, check_gaps, check_ranks, check_sweep_and_none), (check_foils,))
+    run_checks((check_springs, check_heat, check_gaps, check_ranks, check_sweep_and_none), (check_foils, check_foils_with_heat))
 
 
 if __name__ == "__main__":

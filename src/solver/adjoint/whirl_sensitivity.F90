@@ -11,6 +11,9 @@
 !> this form, of bearings with a little more and less of the key, and of states a little on along \( u_a \). A gap of
 !> contacts is changed with the state in one: by itself it would open contacts that are pressed by far less.
 !> `gfb_whirl` has how the whirl follows Z. Nothing is factored but the equations of the whirl, once.
+!>
+!> Heat is slow against a whirl: motions are those of a bearing whose temperatures stay as they are, while the answer, from which
+!> these are taken, follows the key with them.
 module gfb_whirl_sensitivity
   use petscmat
   use gfb_kinds, only: wp
@@ -23,7 +26,8 @@ module gfb_whirl_sensitivity
   use gfb_motion_cases, only: mass_on, mass_off
   use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_system, only: bearing_system_type
+  use gfb_bearing_system, only: bearing_system_type, free_equations
+  use gfb_heat_switch, only: freeze_heat
   use gfb_foil_builder, only: keep_elements
   use gfb_bearing_builder, only: take_numbers, build_changed
   use gfb_newton, only: newton_type
@@ -107,19 +111,26 @@ contains
   end subroutine derive_whirl
 
   !> Coefficients at the whirl, motions and adjoints, with one factorization.
-  subroutine find_motions(scene, bearing, newton, form, problem)
+  recursive subroutine find_motions(scene, bearing, newton, form, problem)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
     type(whirl_form_type), intent(inout) :: form
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
     type(dynamic_response_type) :: response
+    type(bearing_system_type) :: frozen
     complex(wp), allocatable :: z(:, :), slope(:, :)
     real(wp), allocatable :: gradient(:, :)
     PetscErrorCode :: ierr
     logical :: found, all_found
     integer :: k
 
+    if (bearing%has_slow_unknowns()) then
+      call freeze_heat(bearing, frozen)
+      call find_motions(scene, frozen, newton, form, problem)
+      call free_equations(frozen)
+      return
+    end if
     call respond(scene, bearing, form, response)
     form%closed = closed_contacts(bearing)
     allocate (form%motion(bearing%local_size(), 2, planar))
@@ -181,18 +192,25 @@ contains
   end function closed_contacts
 
   !> The form of the coefficients in a bearing close by, with the answer's motions and adjoints.
-  subroutine evaluate_form(scene, bearing, form, matrix, problem)
+  recursive subroutine evaluate_form(scene, bearing, form, matrix, problem)
     type(scene_type), intent(in) :: scene !! of the bearing
     type(bearing_system_type), intent(inout) :: bearing !! in its state
     type(whirl_form_type), intent(in) :: form
     complex(wp), intent(out) :: matrix(:, :) !! Z [N/m]
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
     type(dynamic_response_type) :: response
+    type(bearing_system_type) :: frozen
     complex(wp), allocatable :: force(:)
     PetscErrorCode :: ierr
     PetscScalar :: along(2, 2)
     integer :: i, j, k, n
 
+    if (bearing%has_slow_unknowns()) then
+      call freeze_heat(bearing, frozen)
+      call evaluate_form(scene, frozen, form, matrix, problem)
+      call free_equations(frozen)
+      return
+    end if
     call respond(scene, bearing, form, response)
     problem = ''
     if (any_rank(any(closed_contacts(bearing) .neqv. form%closed))) problem = flips
