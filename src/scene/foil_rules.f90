@@ -14,7 +14,7 @@ module gfb_foil_rules
   use gfb_bearing_case, only: bearing_case_type, pad_length, leading_edge_periodic
   use gfb_fixed_lines, only: fixed_line_corner
   use gfb_study_cases, only: part_strip, part_top_foil, part_flat, quantity_words, asked_name, &
-                             top_foil_stress, bump_foil_stress
+                             quantities_of, of_top_foil, of_bump_foil
   use gfb_shape_rules, only: thin, thin_in_bump, low_in_pad
   use gfb_strip_load_case, only: load_plates, support_held
   implicit none (type, external)
@@ -52,13 +52,13 @@ contains
     type(scene_type), intent(in) :: scene
     character(len=:), allocatable :: name
 
-    associate (derived => scene%sensitivity%quantity, foil => scene%model%foil)
+    associate (derived => scene%sensitivity, foil => scene%model%foil)
       if (.not. scene%general%analysis%has_film .or. .not. foil%is_known()) return
-      call refuse('sensitivity', derived(top_foil_stress), derived(bump_foil_stress))
+      call refuse('sensitivity', derived%asks(of_top_foil), derived%asks(of_bump_foil))
       if (scene%accuracy%quantity == 0) return
       name = asked_name(scene%accuracy)
-      call refuse('accuracy', name == trim(quantity_words(top_foil_stress)), &
-                  name == trim(quantity_words(bump_foil_stress)))
+      call refuse('accuracy', any(pack(quantity_words, quantities_of(of_top_foil)) == name), &
+                  any(pack(quantity_words, quantities_of(of_bump_foil)) == name))
     end associate
 
   contains

@@ -19,7 +19,7 @@ module gfb_scene_rules
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene, only: scene_type
   use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
-  use gfb_study_cases, only: quantities_without_heat, quantities_of_rings, quantities_of_whirl
+  use gfb_study_cases, only: of_heat
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
   use gfb_plate_rules, only: check_plate
@@ -70,9 +70,7 @@ contains
     type(scene_type), intent(in) :: scene
 
     call keys%rule('sensitivity', 'quantity', .not. scene%thermal%present .and. &
-                   any(scene%sensitivity%quantity(quantities_without_heat + 1:size( &
-                   scene%sensitivity%quantity) - quantities_of_rings - quantities_of_whirl)), &
-                   'names a result of heat, which needs &thermal')
+                   scene%sensitivity%asks(of_heat), 'names a result of heat, which needs &thermal')
     if (.not. (scene%thermal%present .and. scene%general%analysis%has_film)) return
     call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                    "must be 'monolithic' with &thermal")

@@ -10,7 +10,7 @@ module gfb_thrust_rules
   use gfb_model_case, only: foundation_pressure_local
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: quantities_of_rings, quantities_of_whirl
+  use gfb_study_cases, only: quantity_words, of_journal, of_runner, of_whirl
   use gfb_sweep_case, only: operation_at, sweep_keys, sweep_axial_gap, &
                             sweep_axial_load, sweep_tilt_x, sweep_tilt_y, sweep_speed
   use gfb_text, only: text
@@ -27,15 +27,13 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
 
     associate (sweep => scene%sweep, foil => scene%model%foil, &
-               asked => scene%sensitivity%quantity, &
-               before => size(scene%sensitivity%quantity) - quantities_of_whirl &
-               - quantities_of_rings)
+               derived => scene%sensitivity)
       if (.not. scene%bearing%row%has_sectors) then
         call keys%rule('sweep', 'parameter', sweep%parameter == sweep_axial_gap .or. &
                        sweep%parameter == sweep_axial_load .and. &
                        .not. scene%bearing%row%moves_along, needs_thrust)
-        call keys%rule('sensitivity', 'quantity', any(asked(before + 1:before + &
-                       quantities_of_rings)), 'names a result of thrust bearings: '//needs_thrust)
+        call keys%rule('sensitivity', 'quantity', derived%asks(of_runner), &
+                       'names a result of thrust bearings: '//needs_thrust)
         return
       end if
       call keys%rule('sweep', 'parameter', all(sweep%parameter /= [0, sweep_keys, sweep_speed, &
@@ -56,8 +54,8 @@ contains
                      'not followed over time')
       call keys%rule('model', 'foil', .not. foil%fits_sectors, "must be 'rigid', "// &
                      "'elastic_foundation', 'plate' or 'shell' with kind = 'thrust' in &bearing")
-      call keys%rule('sensitivity', 'quantity', any(asked(:4)) .or. &
-                     any(asked(before + quantities_of_rings + 1:)) .or. asked(before + 1) .and. &
+      call keys%rule('sensitivity', 'quantity', derived%asks(of_journal) .or. &
+                     derived%asks(of_whirl) .or. any(derived%quantity .and. quantity_words == 'axial_gap') .and. &
                      .not. scene%general%analysis%floats, 'names a result of '// &
                      'journal bearings, or axial_gap where it is held')
       call keys%rule('operation', 'axial_load', .not. bearing_wedges(scene) .and. &

@@ -15,7 +15,7 @@ module gfb_study_cases
   public :: output_case_type, read_output_case, modes_case_type, read_modes_case, &
             accuracy_case_type, read_accuracy_case, asked_name, sample_case_type, &
             read_sample_case, percent_of, sensitivity_case_type, read_sensitivity_case, &
-            derives_whirl, derives_stress, &
+            derives_whirl, derives_stress, quantities_of, &
             capacity_case_type, read_capacity_case
 
   character(len=*), parameter :: field_words(*) = [character(len=10) :: &
@@ -67,20 +67,42 @@ module gfb_study_cases
 
   integer, parameter :: most_tolerances = 1000 !! of a list
 
-  !> Results whose derivatives are offered, in the order in which the solver has them.
-  character(len=*), parameter, public :: quantity_words(*) = [character(len=28) :: &
-    'eccentricity_x', 'eccentricity_y', 'attitude_angle', 'force_x', 'force_y', 'torque_x', &
-    'torque_y', 'friction_torque', 'power_loss', 'minimum_gap', 'maximum_pressure', &
-    'minimum_pressure', 'maximum_top_foil_stress', 'maximum_bump_foil_stress', &
-    'film_temperature', 'maximum_film_temperature', 'top_foil_temperature', &
-    'maximum_top_foil_temperature', 'shaft_temperature', 'sleeve_temperature', &
-    'inlet_temperature', 'cooling_outlet_temperature', 'heat_to_shaft', 'heat_to_top_foil', &
-    'heat_through_bumps', 'heat_to_channel', 'heat_by_gas', 'running_clearance', 'axial_gap', &
-    'axial_force', 'critical_mass', 'whirl_ratio']
-  integer, parameter, public :: quantities_without_heat = 14 !! the first ones
-  integer, parameter, public :: top_foil_stress = 13, bump_foil_stress = 14 !! the last of those
-  integer, parameter, public :: quantities_of_whirl = 2 !! the last ones
-  integer, parameter, public :: quantities_of_rings = 2 !! those before them
+  ! What a result whose derivatives are offered is of.
+  integer, parameter, public :: of_film = 1           !! the film of any bearing
+  integer, parameter, public :: of_journal = 2        !! a shaft's place and force across the axis
+  integer, parameter, public :: of_top_foil = 3, of_bump_foil = 4 !! their largest stress
+  integer, parameter, public :: of_heat = 5
+  integer, parameter, public :: of_runner = 6         !! its gap and force along the axis
+  integer, parameter, public :: of_whirl = 7
+
+  !> A result whose derivatives are offered.
+  type :: derived_row_type
+    character(len=28) :: name
+    integer :: of !! what
+  end type derived_row_type
+
+  !> All of them, in the order in which the solver has them.
+  type(derived_row_type), parameter :: derived_row(*) = [ &
+    derived_row_type('eccentricity_x', of_journal), derived_row_type('eccentricity_y', of_journal), &
+    derived_row_type('attitude_angle', of_journal), derived_row_type('force_x', of_journal), &
+    derived_row_type('force_y', of_journal), derived_row_type('torque_x', of_film), &
+    derived_row_type('torque_y', of_film), derived_row_type('friction_torque', of_film), &
+    derived_row_type('power_loss', of_film), derived_row_type('minimum_gap', of_film), &
+    derived_row_type('maximum_pressure', of_film), derived_row_type('minimum_pressure', of_film), &
+    derived_row_type('maximum_top_foil_stress', of_top_foil), &
+    derived_row_type('maximum_bump_foil_stress', of_bump_foil), &
+    derived_row_type('film_temperature', of_heat), derived_row_type('maximum_film_temperature', of_heat), &
+    derived_row_type('top_foil_temperature', of_heat), &
+    derived_row_type('maximum_top_foil_temperature', of_heat), &
+    derived_row_type('shaft_temperature', of_heat), derived_row_type('sleeve_temperature', of_heat), &
+    derived_row_type('inlet_temperature', of_heat), &
+    derived_row_type('cooling_outlet_temperature', of_heat), derived_row_type('heat_to_shaft', of_heat), &
+    derived_row_type('heat_to_top_foil', of_heat), derived_row_type('heat_through_bumps', of_heat), &
+    derived_row_type('heat_to_channel', of_heat), derived_row_type('heat_by_gas', of_heat), &
+    derived_row_type('running_clearance', of_heat), &
+    derived_row_type('axial_gap', of_runner), derived_row_type('axial_force', of_runner), &
+    derived_row_type('critical_mass', of_whirl), derived_row_type('whirl_ratio', of_whirl)]
+  character(len=*), parameter, public :: quantity_words(size(derived_row)) = derived_row%name
 
   !> A key by which results are derived.
   type, public :: parameter_type
@@ -109,6 +131,8 @@ module gfb_study_cases
     integer :: strings = 0                              !! in which they stand
     real(wp), allocatable :: tolerances(:)              !! one a key, or none [their units]
     type(parameter_type), allocatable :: parameter(:)   !! the keys, once they are checked
+  contains
+    procedure :: asks
   end type sensitivity_case_type
 
   character(len=*), parameter :: axis_words(*) = ['x', 'y']
@@ -255,16 +279,30 @@ contains
                             'variance is told that they cause', not_negative, .false., 'none')
   end subroutine read_sensitivity_case
 
+  !> Which of the results are of something.
+  pure function quantities_of(what) result(are)
+    integer, intent(in) :: what !! such as `of_heat`
+    logical :: are(size(derived_row))
+    are = derived_row%of == what
+  end function quantities_of
+
+  !> Whether derivatives of results of something are asked for.
+  pure logical function asks(self, what)
+    class(sensitivity_case_type), intent(in) :: self !! what is asked for
+    integer, intent(in) :: what !! such as `of_heat`
+    asks = any(self%quantity .and. quantities_of(what))
+  end function asks
+
   !> Whether derivatives of the foils' stresses are asked for.
   pure logical function derives_stress(sensitivity) result(derives)
     type(sensitivity_case_type), intent(in) :: sensitivity !! what is asked for
-    derives = any(sensitivity%quantity(top_foil_stress:bump_foil_stress))
+    derives = sensitivity%asks(of_top_foil) .or. sensitivity%asks(of_bump_foil)
   end function derives_stress
 
   !> Whether derivatives of whirl are asked for.
   pure logical function derives_whirl(sensitivity) result(derives)
     type(sensitivity_case_type), intent(in) :: sensitivity !! what is asked for
-    derives = any(sensitivity%quantity(size(quantity_words) - quantities_of_whirl + 1:))
+    derives = sensitivity%asks(of_whirl)
   end function derives_whirl
 
   !> Reads the group, which belongs to analyses that look for a limit.

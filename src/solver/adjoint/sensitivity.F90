@@ -15,7 +15,7 @@ module gfb_sensitivity
   use gfb_kinds, only: wp
   use gfb_units, only: degrees
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: parameter_type, quantity_words, quantities_of_whirl, quantities_of_rings, derives_stress
+  use gfb_study_cases, only: parameter_type, quantity_words, quantities_of, of_runner, of_whirl, derives_stress
   use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
@@ -37,8 +37,6 @@ module gfb_sensitivity
   implicit none (type)
   private
   public :: keep_tangent, find_sensitivities, evaluate_changed
-
-  integer, parameter :: before_whirl = size(quantity_words) - quantities_of_whirl !! quantities that are numbers of the answer
 
   !> What is found of an answer.
   type, public :: sensitivity_type
@@ -83,8 +81,7 @@ contains
     call find_extremes(bearing, derives_stress(scene%sensitivity), answer%nodes)
     number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call combine(number, found%value, combined)
-    asked = scene%sensitivity%quantity
-    asked(before_whirl + 1:) = .false.
+    asked = scene%sensitivity%quantity .and. .not. quantities_of(of_whirl) ! those are no numbers of the answer
     call find_adjoints(asked, bearing, newton, tangent, answer%nodes, combined, adjoint, solved)
     if (scene%model%foil%has_bumps) call find_motions(bearing, adjoint, solved, answer)
     associate (parameter => scene%sensitivity%parameter)
@@ -110,11 +107,13 @@ contains
     real(wp), allocatable, intent(out) :: value(:) !! of the quantities
     real(wp), intent(out) :: rate(:, :)            !! (quantities, numbers)
     real(wp) :: square
-    integer, parameter :: attitude = 3, power = 9, extremes = 10 !! among the quantities
-    integer :: k, axial
+    integer :: attitude, power, extremes, axial, k
 
     allocate (value(size(rate, 1)), source=0.0_wp) ! those of whirl are not measured
-    axial = before_whirl - quantities_of_rings + 1
+    attitude = findloc(quantity_words, 'attitude_angle', 1)
+    power = findloc(quantity_words, 'power_loss', 1)
+    extremes = findloc(quantity_words, 'minimum_gap', 1)
+    axial = findloc(quantities_of(of_runner), .true., 1)
     rate = 0.0_wp
     value(:2) = number(place_e:place_e + 1)
     value(attitude + 1:power - 1) = number(place_force:place_torque)

@@ -2,7 +2,7 @@
 !> What is judged of an answer, and derived of it, with the factors of its equations: stability, and derivatives of its numbers by
 !> keys.
 module gfb_answer_judgement
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
   use petscmat
   use gfb_kinds, only: wp
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity, number_in
@@ -10,7 +10,7 @@ module gfb_answer_judgement
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: quantity_words, parameter_type, quantities_of_whirl, derives_whirl
+  use gfb_study_cases, only: quantity_words, parameter_type, quantities_of, of_whirl, derives_whirl
   use gfb_sweep_case, only: swept_key_type
   use gfb_bearing_system, only: bearing_system_type, free_equations
   use gfb_heat_switch, only: freeze_heat
@@ -40,6 +40,7 @@ contains
     type(whirl_type), intent(in) :: whirl !! of it, where its derivatives are asked for
     real(wp), intent(in), optional :: value !! of the sweep, in its unit
     type(sensitivity_type) :: found
+    real(wp), allocatable :: rates(:, :) !! of what whirls, by each parameter
     character(len=:), allocatable :: problem
     integer :: sign_of_determinant, i
     Mat :: tangent
@@ -53,10 +54,12 @@ contains
     call find_sensitivities(scene, bearing, newton, tangent, found, value)
     if (found%problem /= '') call log%warning('no derivative by '//found%problem)
     if (derives_whirl(scene%sensitivity)) then
-      associate (first => size(quantity_words) - quantities_of_whirl + 1)
-        found%value(first:) = [whirl%critical_mass, whirl%ratio]
-        call derive_whirl(scene, bearing, newton, tangent, whirl, found%derivative(first:, :), problem, value)
-      end associate
+      found%value = unpack([whirl%critical_mass, whirl%ratio], quantities_of(of_whirl), found%value)
+      allocate (rates(count(quantities_of(of_whirl)), size(found%derivative, 2)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      call derive_whirl(scene, bearing, newton, tangent, whirl, rates, problem, value)
+      do i = 1, size(rates, 2)
+        found%derivative(:, i) = unpack(rates(:, i), quantities_of(of_whirl), found%derivative(:, i))
+      end do
       if (problem /= '') call log%warning('no derivative of whirl by '//problem)
     end if
     PetscCallA(MatDestroy(tangent, ierr))
