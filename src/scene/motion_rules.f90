@@ -11,7 +11,7 @@ module gfb_motion_rules
                             springs_two_sided
   use gfb_operation_case, only: angular_speed
   use gfb_scene, only: scene_type, foil_density
-  use gfb_study_cases, only: derives_whirl
+  use gfb_study_cases, only: derives_vibrations, of_whirl
   use gfb_sweep_case, only: sweep_speed, sweep_tilt_x, sweep_tilt_y
   use gfb_text, only: text
   implicit none (type, external)
@@ -89,16 +89,17 @@ contains
                      ': every amplitude is solved at every frequency')
   end subroutine check_interpolation
 
-  !> Where the whirl of `&sensitivity` has derivatives.
+  !> Where results of small vibrations in `&sensitivity` have derivatives.
   subroutine check_derived_whirl(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
     character(len=*), parameter :: group = 'sensitivity', name = 'quantity'
 
-    if (.not. derives_whirl(scene%sensitivity)) return
+    if (.not. derives_vibrations(scene%sensitivity)) return
     call keys%rule(group, name, .not. scene%dynamics%present, 'names a result of small '// &
                    "vibrations, which needs analysis = 'linear_dynamics' and &dynamics")
-    call keys%rule(group, name, scene%dynamics%present .and. stands_still(keys, scene), &
+    call keys%rule(group, name, scene%dynamics%present .and. &
+                   scene%sensitivity%asks(of_whirl) .and. stands_still(keys, scene), &
                    'names a result of whirl, which needs a shaft that turns')
   end subroutine check_derived_whirl
 

@@ -10,7 +10,7 @@ module gfb_thrust_rules
   use gfb_model_case, only: foundation_pressure_local
   use gfb_operation_case, only: operation_case_type
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: quantity_words, of_journal, of_runner, of_whirl
+  use gfb_study_cases, only: quantity_words, of_journal, of_runner, derives_vibrations
   use gfb_sweep_case, only: operation_at, sweep_keys, sweep_axial_gap, &
                             sweep_axial_load, sweep_tilt_x, sweep_tilt_y, sweep_speed
   use gfb_text, only: text
@@ -55,7 +55,8 @@ contains
       call keys%rule('model', 'foil', .not. foil%fits_sectors, "must be 'rigid', "// &
                      "'elastic_foundation', 'plate' or 'shell' with kind = 'thrust' in &bearing")
       call keys%rule('sensitivity', 'quantity', derived%asks(of_journal) .or. &
-                     derived%asks(of_whirl) .or. any(derived%quantity .and. quantity_words == 'axial_gap') .and. &
+                     derives_vibrations(derived) .or. any(derived%quantity .and. &
+                     quantity_words == 'axial_gap') .and. &
                      .not. scene%general%analysis%floats, 'names a result of '// &
                      'journal bearings, or axial_gap where it is held')
       call keys%rule('operation', 'axial_load', .not. bearing_wedges(scene) .and. &

@@ -7,6 +7,7 @@ from gfb_run import run_checks, solve
 from sensitivity import COOLED, FILM_KEYS, HEAT, LIMIT, SPRINGS, WARM_GAS, check_differences, check_sum, derived, foils, slope_name, with_keys
 
 NAMES = ("critical_mass", "whirl_ratio")
+COEFFICIENTS = tuple(f"{what}_{entry}" for what in ("stiffness", "damping") for entry in ("xx", "xy", "yx", "yy"))
 VIBRATION = {"scene": {"analysis": "linear_dynamics"}, "dynamics": {"frequency_ratios": 1.0}}
 STEEL = {"density": 7850.0}
 PLATE = {"bump_foil": {"bumps": 26, "half_length": 1.778e-3, "height": 5.08e-4, "pitch": 4.572e-3, "thickness": 1.02e-4, "youngs_modulus": 2.14e11,
@@ -24,8 +25,8 @@ def light(model, friction, **changes):
 
 
 def check(checks, folder, words, content, steps):
-    """Both derivatives by each key against differences."""
-    return check_differences(checks, folder, words, content, steps, NAMES)
+    """All derivatives by each key against differences."""
+    return check_differences(checks, folder, words, content, steps, NAMES + COEFFICIENTS)
 
 
 def check_springs(checks, folder):

@@ -15,7 +15,7 @@ module gfb_study_cases
   public :: output_case_type, read_output_case, modes_case_type, read_modes_case, &
             accuracy_case_type, read_accuracy_case, asked_name, sample_case_type, &
             read_sample_case, percent_of, sensitivity_case_type, read_sensitivity_case, &
-            derives_whirl, derives_stress, quantities_of, &
+            derives_vibrations, derives_stress, quantities_of, &
             capacity_case_type, read_capacity_case
 
   character(len=*), parameter :: field_words(*) = [character(len=10) :: &
@@ -74,34 +74,56 @@ module gfb_study_cases
   integer, parameter, public :: of_heat = 5
   integer, parameter, public :: of_runner = 6         !! its gap and force along the axis
   integer, parameter, public :: of_whirl = 7
+  integer, parameter, public :: of_coefficients = 8   !! stiffness, damping at the first frequency
 
   !> A result whose derivatives are offered.
-  type :: derived_row_type
+  type :: derived_type
     character(len=28) :: name
     integer :: of !! what
-  end type derived_row_type
+  end type derived_type
 
   !> All of them, in the order in which the solver has them.
-  type(derived_row_type), parameter :: derived_row(*) = [ &
-    derived_row_type('eccentricity_x', of_journal), derived_row_type('eccentricity_y', of_journal), &
-    derived_row_type('attitude_angle', of_journal), derived_row_type('force_x', of_journal), &
-    derived_row_type('force_y', of_journal), derived_row_type('torque_x', of_film), &
-    derived_row_type('torque_y', of_film), derived_row_type('friction_torque', of_film), &
-    derived_row_type('power_loss', of_film), derived_row_type('minimum_gap', of_film), &
-    derived_row_type('maximum_pressure', of_film), derived_row_type('minimum_pressure', of_film), &
-    derived_row_type('maximum_top_foil_stress', of_top_foil), &
-    derived_row_type('maximum_bump_foil_stress', of_bump_foil), &
-    derived_row_type('film_temperature', of_heat), derived_row_type('maximum_film_temperature', of_heat), &
-    derived_row_type('top_foil_temperature', of_heat), &
-    derived_row_type('maximum_top_foil_temperature', of_heat), &
-    derived_row_type('shaft_temperature', of_heat), derived_row_type('sleeve_temperature', of_heat), &
-    derived_row_type('inlet_temperature', of_heat), &
-    derived_row_type('cooling_outlet_temperature', of_heat), derived_row_type('heat_to_shaft', of_heat), &
-    derived_row_type('heat_to_top_foil', of_heat), derived_row_type('heat_through_bumps', of_heat), &
-    derived_row_type('heat_to_channel', of_heat), derived_row_type('heat_by_gas', of_heat), &
-    derived_row_type('running_clearance', of_heat), &
-    derived_row_type('axial_gap', of_runner), derived_row_type('axial_force', of_runner), &
-    derived_row_type('critical_mass', of_whirl), derived_row_type('whirl_ratio', of_whirl)]
+  type(derived_type), parameter :: derived_row(*) = [ &
+    derived_type('eccentricity_x', of_journal), &
+    derived_type('eccentricity_y', of_journal), &
+    derived_type('attitude_angle', of_journal), &
+    derived_type('force_x', of_journal), &
+    derived_type('force_y', of_journal), &
+    derived_type('torque_x', of_film), &
+    derived_type('torque_y', of_film), &
+    derived_type('friction_torque', of_film), &
+    derived_type('power_loss', of_film), &
+    derived_type('minimum_gap', of_film), &
+    derived_type('maximum_pressure', of_film), &
+    derived_type('minimum_pressure', of_film), &
+    derived_type('maximum_top_foil_stress', of_top_foil), &
+    derived_type('maximum_bump_foil_stress', of_bump_foil), &
+    derived_type('film_temperature', of_heat), &
+    derived_type('maximum_film_temperature', of_heat), &
+    derived_type('top_foil_temperature', of_heat), &
+    derived_type('maximum_top_foil_temperature', of_heat), &
+    derived_type('shaft_temperature', of_heat), &
+    derived_type('sleeve_temperature', of_heat), &
+    derived_type('inlet_temperature', of_heat), &
+    derived_type('cooling_outlet_temperature', of_heat), &
+    derived_type('heat_to_shaft', of_heat), &
+    derived_type('heat_to_top_foil', of_heat), &
+    derived_type('heat_through_bumps', of_heat), &
+    derived_type('heat_to_channel', of_heat), &
+    derived_type('heat_by_gas', of_heat), &
+    derived_type('running_clearance', of_heat), &
+    derived_type('axial_gap', of_runner), &
+    derived_type('axial_force', of_runner), &
+    derived_type('critical_mass', of_whirl), &
+    derived_type('whirl_ratio', of_whirl), &
+    derived_type('stiffness_xx', of_coefficients), &
+    derived_type('stiffness_xy', of_coefficients), &
+    derived_type('stiffness_yx', of_coefficients), &
+    derived_type('stiffness_yy', of_coefficients), &
+    derived_type('damping_xx', of_coefficients), &
+    derived_type('damping_xy', of_coefficients), &
+    derived_type('damping_yx', of_coefficients), &
+    derived_type('damping_yy', of_coefficients)]
   character(len=*), parameter, public :: quantity_words(size(derived_row)) = derived_row%name
 
   !> A key by which results are derived.
@@ -299,11 +321,11 @@ contains
     derives = sensitivity%asks(of_top_foil) .or. sensitivity%asks(of_bump_foil)
   end function derives_stress
 
-  !> Whether derivatives of whirl are asked for.
-  pure logical function derives_whirl(sensitivity) result(derives)
+  !> Whether derivatives of what small vibrations tell are asked for.
+  pure logical function derives_vibrations(sensitivity) result(derives)
     type(sensitivity_case_type), intent(in) :: sensitivity !! what is asked for
-    derives = sensitivity%asks(of_whirl)
-  end function derives_whirl
+    derives = sensitivity%asks(of_whirl) .or. sensitivity%asks(of_coefficients)
+  end function derives_vibrations
 
   !> Reads the group, which belongs to analyses that look for a limit.
   subroutine read_capacity_case(keys, capacity, analysis)

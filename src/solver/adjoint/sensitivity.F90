@@ -15,7 +15,7 @@ module gfb_sensitivity
   use gfb_kinds, only: wp
   use gfb_units, only: degrees
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: parameter_type, quantity_words, quantities_of, of_runner, of_whirl, derives_stress
+  use gfb_study_cases, only: parameter_type, quantity_words, quantities_of, of_runner, of_whirl, of_coefficients, derives_stress
   use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
@@ -81,7 +81,8 @@ contains
     call find_extremes(bearing, derives_stress(scene%sensitivity), answer%nodes)
     number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call combine(number, found%value, combined)
-    asked = scene%sensitivity%quantity .and. .not. quantities_of(of_whirl) ! those are no numbers of the answer
+    ! What vibrations tell is no number of the answer.
+    asked = scene%sensitivity%quantity .and. .not. (quantities_of(of_whirl) .or. quantities_of(of_coefficients))
     call find_adjoints(asked, bearing, newton, tangent, answer%nodes, combined, adjoint, solved)
     if (scene%model%foil%has_bumps) call find_motions(bearing, adjoint, solved, answer)
     associate (parameter => scene%sensitivity%parameter)

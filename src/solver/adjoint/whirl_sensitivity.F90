@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
-!> How the critical mass of an answer, and the frequency of its whirl, follow keys of the case file.
+!> How the critical mass of an answer, the frequency of its whirl, and stiffness and damping follow keys of the case file.
 !>
-!> The coefficients at the whirl's frequency are stationary in the motions \( A y = b \) that give them and in their adjoints,
+!> The coefficients at a frequency are stationary in the motions \( A y = b \) that give them and in their adjoints,
 !> \( A^T z_j = w_j \) with the weights w of the forces:
 !>
 !> $$ Z_{jk} = w_j^T y_k + z_j^T (b_k - A y_k). $$
@@ -10,7 +10,8 @@
 !> follows the key by \( J u_a = -J_a \), one solve with the factors there are; both parts are central differences of
 !> this form, of bearings with a little more and less of the key, and of states a little on along \( u_a \). A gap of
 !> contacts is changed with the state in one: by itself it would open contacts that are pressed by far less.
-!> `gfb_whirl` has how the whirl follows Z. Nothing is factored but the equations of the whirl, once.
+!> `gfb_whirl` has how the whirl follows Z. Nothing is factored but the equations at the whirl's frequency, and at that of the
+!> coefficients, once.
 !>
 !> Heat is slow against a whirl: motions are those of a bearing whose temperatures stay as they are, while the answer, from which
 !> these are taken, follows the key with them.
@@ -23,7 +24,7 @@ module gfb_whirl_sensitivity
   use gfb_scene_reading, only: scene_with_key
   use gfb_study_cases, only: parameter_type
   use gfb_operation_case, only: angular_speed
-  use gfb_motion_cases, only: mass_on, mass_off
+  use gfb_motion_cases, only: mass_on, mass_off, frequencies_at
   use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type, free_equations
@@ -44,7 +45,7 @@ module gfb_whirl_sensitivity
   use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils, by_answer
   implicit none (type)
   private
-  public :: derive_whirl
+  public :: derive_whirl, derive_coefficients
 
   integer, parameter :: planar = 2 !! motions, and forces
 
@@ -53,9 +54,9 @@ module gfb_whirl_sensitivity
     difference_type(1.0e-4_wp, [0.0_wp, 0.0_wp, -1.5_wp, 2.0_wp, -0.5_wp])
   character(len=*), parameter :: flips = 'a contact opens or closes at a value close by'
 
-  !> The motions of the whirl's frequency at the answer.
+  !> The motions at a frequency, at the answer.
   type :: whirl_form_type
-    type(whirl_type) :: whirl
+    logical :: weighs !! the foil has its mass
     complex(wp) :: rate !! lambda [1/s]
     complex(wp) :: matrix(planar, planar)       !! Z [N/m]
     complex(wp) :: by_frequency(planar, planar) !! its derivative by the frequency [N s/m]
@@ -78,17 +79,88 @@ contains
     character(len=:), allocatable, intent(out) :: problem !! why there are none by some parameter
     real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
     type(whirl_form_type) :: form
-    type(tMat) :: of_newton
-    character(len=:), allocatable :: words
-    PetscErrorCode :: ierr
+    complex(wp) :: change(planar, planar, size(derivative, 2))
+    real(wp) :: rates(2), turning
+    logical :: found(size(derivative, 2))
     integer :: i
 
     problem = ''
     if (.not. whirl%found) problem = 'any key: no rigid shaft whirls'
     if (whirl%found .and. .not. whirl%critical_mass > 0.0_wp) problem = 'any key: every mass whirls, the critical one is 0'
     if (problem /= '') return
-    form%whirl = whirl
+    form%weighs = whirl%weighs
     form%rate = cmplx(0.0_wp, whirl%ratio*bearing%point%speed, wp)
+    call derive_form(scene, bearing, newton, tangent, form, change, found, problem, at)
+    do i = 1, size(found)
+      if (.not. found(i)) cycle
+      rates = whirl_rates(form%matrix, form%by_frequency, change(:, :, i), aimag(form%rate))
+      turning = speed_by(scene%sensitivity%parameter(i))
+      derivative(:, i) = [rates(1), (rates(2) - whirl%ratio*turning)/bearing%point%speed]
+    end do
+  end subroutine derive_whirl
+
+  !> Derivatives of stiffness and damping at the first frequency by all parameters. Of a frequency over the speed the speed moves it:
+  !>
+  !> $$ Z_a + Z_\omega \omega_a = K_a + i (\omega C_a + \omega_a C). $$
+  subroutine derive_coefficients(scene, bearing, newton, tangent, weighs, coefficient, derivative, problem, at)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(bearing_system_type), intent(inout) :: bearing !! at its answer, and at the same one after
+    type(newton_type), intent(inout) :: newton !! with the factors of `find_determinant_sign`; what is factored is counted
+    Mat, intent(in) :: tangent !! the equations' matrix at the answer
+    logical, intent(in) :: weighs !! the foil has its mass
+    real(wp), intent(out) :: coefficient(:) !! entries of K [N/m] and C [N s/m], row by row
+    real(wp), intent(inout) :: derivative(:, :) !! (entries, parameter) over the key's unit, stays where there is none
+    character(len=:), allocatable, intent(out) :: problem !! why there are none by some parameter
+    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+    type(whirl_form_type) :: form
+    complex(wp) :: change(planar, planar, size(derivative, 2)), whole(planar, planar)
+    real(wp), allocatable :: frequency(:)
+    real(wp) :: damping(planar, planar), frequency_by
+    logical :: found(size(derivative, 2))
+    integer :: i
+
+    frequency = frequencies_at(scene%dynamics, bearing%point%speed)
+    form%weighs = weighs
+    form%rate = cmplx(0.0_wp, frequency(1), wp)
+    problem = ''
+    form%matrix = 0.0_wp
+    call derive_form(scene, bearing, newton, tangent, form, change, found, problem, at)
+    damping = aimag(form%matrix)/frequency(1)
+    coefficient = [transpose(real(form%matrix, wp)), transpose(damping)]
+    do i = 1, size(found)
+      if (.not. found(i)) cycle
+      frequency_by = 0.0_wp
+      if (size(scene%dynamics%ratios) > 0) frequency_by = scene%dynamics%ratios(1)*speed_by(scene%sensitivity%parameter(i))
+      whole = change(:, :, i) + form%by_frequency*frequency_by
+      derivative(:, i) = [transpose(real(whole, wp)), transpose((aimag(whole) - damping*frequency_by)/frequency(1))]
+    end do
+  end subroutine derive_coefficients
+
+  !> How the angular speed follows a key [rad/s over its unit].
+  pure real(wp) function speed_by(parameter)
+    type(parameter_type), intent(in) :: parameter
+
+    speed_by = 0.0_wp
+    if (parameter%key%label() == 'operation%speed_rpm') speed_by = angular_speed(1.0_wp)
+  end function speed_by
+
+  !> The coefficients at a frequency, and how they follow all parameters while it stays.
+  subroutine derive_form(scene, bearing, newton, tangent, form, change, found, problem, at)
+    type(scene_type), intent(in) :: scene
+    type(bearing_system_type), intent(inout) :: bearing
+    type(newton_type), intent(inout) :: newton
+    Mat, intent(in) :: tangent
+    type(whirl_form_type), intent(inout) :: form !! with its frequency
+    complex(wp), intent(out) :: change(:, :, :) !! of Z by each parameter [N/m over its unit]
+    logical, intent(out) :: found(:) !! there is one
+    character(len=:), allocatable, intent(inout) :: problem !! why there are none by some parameter
+    real(wp), intent(in), optional :: at !! where the scene's sweep is [its unit]
+    type(tMat) :: of_newton
+    character(len=:), allocatable :: words
+    PetscErrorCode :: ierr
+    integer :: i
+
+    found = .false.
     allocate (form%unknown(bearing%local_size()))
     call bearing%get_unknowns(form%unknown)
     ! The matrix that has the factors is left alone.
@@ -98,8 +170,9 @@ contains
     if (words /= '') problem = 'any key: '//words
     associate (parameter => scene%sensitivity%parameter)
       do i = 1, merge(size(parameter), 0, words == '')
-        call derive_by(scene, parameter(i), bearing, newton, tangent, form, derivative(:, i), words, at)
-        if (words /= '') problem = parameter(i)%key%label()//': '//words
+        call derive_by(scene, parameter(i), bearing, newton, tangent, form, change(:, :, i), words, at)
+        found(i) = words == ''
+        if (.not. found(i)) problem = parameter(i)%key%label()//': '//words
       end do
     end associate
     PetscCallA(MatDestroy(bearing%jacobian, ierr))
@@ -108,9 +181,9 @@ contains
       PetscCallA(VecDestroy(form%adjoint(1, i), ierr))
       PetscCallA(VecDestroy(form%adjoint(2, i), ierr))
     end do
-  end subroutine derive_whirl
+  end subroutine derive_form
 
-  !> Coefficients at the whirl, motions and adjoints, with one factorization.
+  !> Coefficients at the frequency, motions and adjoints, with one factorization.
   recursive subroutine find_motions(scene, bearing, newton, form, problem)
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
@@ -175,7 +248,7 @@ contains
     type(dynamic_response_type), intent(out) :: response !! to be destroyed
 
     call create_response(bearing, vibration_of(scene), response)
-    call give_mass(bearing, response, merge(mass_on, mass_off, form%whirl%weighs), scene%foil_damping%foil_modes, &
+    call give_mass(bearing, response, merge(mass_on, mass_off, form%weighs), scene%foil_damping%foil_modes, &
                    aimag(form%rate))
   end subroutine respond
 
@@ -260,19 +333,19 @@ contains
     end associate
   end subroutine find_rest
 
-  !> Derivatives of critical mass and whirl ratio by a key.
-  subroutine derive_by(scene, parameter, bearing, newton, tangent, form, derivative, problem, at)
+  !> How the coefficients follow a key, with the answer, while the frequency stays.
+  subroutine derive_by(scene, parameter, bearing, newton, tangent, form, change, problem, at)
     type(scene_type), intent(in) :: scene
     type(parameter_type), intent(in) :: parameter
     type(bearing_system_type), intent(inout) :: bearing
     type(newton_type), intent(in) :: newton
     Mat, intent(in) :: tangent
     type(whirl_form_type), intent(in) :: form
-    real(wp), intent(inout) :: derivative(:) !! of both, stays where there is none
+    complex(wp), intent(out) :: change(:, :) !! of Z
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
     real(wp), intent(in), optional :: at !! [the sweep's unit]
-    complex(wp) :: change(planar, planar), along_answer(planar, planar)
-    real(wp) :: rates(2), turning, direction(bearing%local_size())
+    complex(wp) :: along_answer(planar, planar)
+    real(wp) :: direction(bearing%local_size())
     Vec :: of_residual, of_answer
     PetscErrorCode :: ierr
     logical :: solved
@@ -293,12 +366,7 @@ contains
         call differ_by_answer(scene, bearing, form, direction, along_answer, problem)
       end if
     end if
-    if (problem == '') then
-      rates = whirl_rates(form%matrix, form%by_frequency, change - along_answer, aimag(form%rate))
-      turning = 0.0_wp
-      if (parameter%key%label() == 'operation%speed_rpm') turning = angular_speed(1.0_wp)
-      derivative = [rates(1), (rates(2) - form%whirl%ratio*turning)/bearing%point%speed]
-    end if
+    if (problem == '') change = change - along_answer
     PetscCallA(VecDestroy(of_residual, ierr))
     PetscCallA(VecDestroy(of_answer, ierr))
   end subroutine derive_by

@@ -10,7 +10,7 @@ module gfb_answer_judgement
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
   use gfb_scene, only: scene_type
-  use gfb_study_cases, only: quantity_words, parameter_type, quantities_of, of_whirl, derives_whirl
+  use gfb_study_cases, only: quantity_words, parameter_type, quantities_of, of_whirl, of_coefficients
   use gfb_sweep_case, only: swept_key_type
   use gfb_bearing_system, only: bearing_system_type, free_equations
   use gfb_heat_switch, only: freeze_heat
@@ -19,7 +19,7 @@ module gfb_answer_judgement
   use gfb_whirl, only: whirl_type
   use gfb_stability, only: stability_type, find_stability
   use gfb_sensitivity, only: sensitivity_type, find_sensitivities, keep_tangent
-  use gfb_whirl_sensitivity, only: derive_whirl
+  use gfb_whirl_sensitivity, only: derive_whirl, derive_coefficients
   implicit none (type)
   private
   public :: judge_and_derive, judge_answer
@@ -40,7 +40,8 @@ contains
     type(whirl_type), intent(in) :: whirl !! of it, where its derivatives are asked for
     real(wp), intent(in), optional :: value !! of the sweep, in its unit
     type(sensitivity_type) :: found
-    real(wp), allocatable :: rates(:, :) !! of what whirls, by each parameter
+    real(wp), allocatable :: rates(:, :) !! of what vibrations tell, by each parameter
+    real(wp), allocatable :: coefficient(:)
     character(len=:), allocatable :: problem
     integer :: sign_of_determinant, i
     Mat :: tangent
@@ -53,20 +54,45 @@ contains
     if (sign_of_determinant == 0) call find_determinant_sign(newton, sign_of_determinant) ! makes the factors
     call find_sensitivities(scene, bearing, newton, tangent, found, value)
     if (found%problem /= '') call log%warning('no derivative by '//found%problem)
-    if (derives_whirl(scene%sensitivity)) then
+    if (scene%sensitivity%asks(of_whirl)) then
+      call begin(of_whirl)
       found%value = unpack([whirl%critical_mass, whirl%ratio], quantities_of(of_whirl), found%value)
-      allocate (rates(count(quantities_of(of_whirl)), size(found%derivative, 2)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       call derive_whirl(scene, bearing, newton, tangent, whirl, rates, problem, value)
-      do i = 1, size(rates, 2)
-        found%derivative(:, i) = unpack(rates(:, i), quantities_of(of_whirl), found%derivative(:, i))
-      end do
-      if (problem /= '') call log%warning('no derivative of whirl by '//problem)
+      call take(of_whirl)
+    end if
+    if (scene%sensitivity%asks(of_coefficients)) then
+      call begin(of_coefficients)
+      call derive_coefficients(scene, bearing, newton, tangent, whirl%weighs, coefficient, rates, problem, value)
+      found%value = unpack(coefficient, quantities_of(of_coefficients), found%value)
+      call take(of_coefficients)
     end if
     PetscCallA(MatDestroy(tangent, ierr))
     do i = 1, size(quantity_words)
       if (scene%sensitivity%quantity(i)) call add_results(scene, trim(quantity_words(i)), found%derivative(i, :), judged)
     end do
     if (.not. scene%sweep%present) call show(scene, found, log)
+
+  contains
+
+    !> No derivatives yet of results of something.
+    subroutine begin(what)
+      integer, intent(in) :: what
+
+      allocate (coefficient(count(quantities_of(what))))
+      allocate (rates(size(coefficient), size(found%derivative, 2)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+    end subroutine begin
+
+    !> Takes them among all, and says where there are none.
+    subroutine take(what)
+      integer, intent(in) :: what
+      integer :: k
+
+      do k = 1, size(rates, 2)
+        found%derivative(:, k) = unpack(rates(:, k), quantities_of(what), found%derivative(:, k))
+      end do
+      if (problem /= '') call log%warning('no derivative of '//trim(merge('whirl       ', 'coefficients', what == of_whirl))//' by '//problem)
+      deallocate (rates, coefficient)
+    end subroutine take
   end subroutine judge_and_derive
 
   !> Judges the bearing's present state, which must be an answer; state and point stay as they are.

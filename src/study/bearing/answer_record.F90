@@ -20,7 +20,7 @@ module gfb_answer_record
   use gfb_answer_judgement, only: judge_and_derive
   use gfb_dynamics, only: find_dynamics
   use gfb_whirl, only: whirl_type
-  use gfb_study_cases, only: derives_whirl
+  use gfb_study_cases, only: derives_vibrations
   use gfb_bearing_solution, only: bearing_solution_type
   implicit none (type, external)
   private
@@ -40,7 +40,7 @@ contains
     associate (scene => solution%scene, here => solution%here, log => solution%context%log, &
                bearing => solution%bearing, newton => solution%newton, record => solution%record)
       if (present(value)) call measure_tilt(scene, value, bearing, newton, record%tilted)
-      vibrates_first = present(value) .or. derives_whirl(here%sensitivity)
+      vibrates_first = present(value) .or. derives_vibrations(here%sensitivity)
       if (vibrates_first) call find_dynamics(here, log, bearing, newton, record%dynamics, vibrations, whirl)
       ! The last of the factors, for the next answer.
       call judge_and_derive(here, log, bearing, newton, record%judged, whirl, value)

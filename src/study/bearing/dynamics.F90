@@ -91,6 +91,7 @@ contains
     if (.not. allocated(record%problem) .and. scene%bearing%row%moves_along .and. scene%rotor%present) then
       call add_axial_mode(scene, log, bearing, response, point%frequency(1), found)
     end if
+    whirl%weighs = response%equations%inertia%present
     record%point = [record%point, point]
     if (response%enlargements > 0) call show_enlargements(log, response%enlargements)
     call end_response(bearing, newton, response)
@@ -432,7 +433,6 @@ contains
     character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
 
     call find_critical_mass(bearing, response, log, model, whirl)
-    whirl%weighs = response%equations%inertia%present
     if (whirl%found) then
       call log%line('critical mass '//text(whirl%critical_mass, 5)//' kg on this bearing: heavier rigid shafts whirl, at '// &
                     text(whirl%ratio, 5)//' of the speed')
