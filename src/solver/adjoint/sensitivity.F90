@@ -14,6 +14,7 @@ module gfb_sensitivity
   use petscmat
   use gfb_kinds, only: wp
   use gfb_units, only: degrees
+  use gfb_text, only: text
   use gfb_scene, only: scene_type
   use gfb_study_cases, only: parameter_type, quantity_words, quantities_of, of_runner, of_whirl, of_coefficients, derives_stress
   use gfb_sweep_case, only: swept_key_type
@@ -89,10 +90,14 @@ contains
       allocate (found%derivative(size(quantity_words), size(parameter)), source=ieee_value(1.0_wp, ieee_quiet_nan))
       found%problem = ''
       do i = 1, merge(size(parameter), 0, any(asked))
+        call newton%log%is_at('derivative by '//parameter(i)%key%label()//', '//text(i)//' of '//text(size(parameter)), &
+                              real(i - 1, wp)/size(parameter))
+        call newton%log%waiting('')
         call find_derivatives(scene, parameter(i), bearing, answer, combined, adjoint, solved, found%derivative(:, i), &
                               problem, at)
         if (problem /= '') found%problem = parameter(i)%key%label()//': '//problem
       end do
+      call newton%log%is_at('')
     end associate
     if (any(asked .and. .not. solved)) found%problem = 'the transposed equations were not solved'
     do k = 1, size(quantity_words)

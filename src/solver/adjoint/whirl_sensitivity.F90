@@ -18,6 +18,8 @@
 module gfb_whirl_sensitivity
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_run_log, only: run_log_type
+  use gfb_text, only: text
   use gfb_errors, only: error_type
   use gfb_petsc_session, only: any_rank, largest_over_ranks
   use gfb_scene, only: scene_type
@@ -170,10 +172,14 @@ contains
     if (words /= '') problem = 'any key: '//words
     associate (parameter => scene%sensitivity%parameter)
       do i = 1, merge(size(parameter), 0, words == '')
+        call newton%log%is_at('derivative by '//parameter(i)%key%label()//', '//text(i)//' of '//text(size(parameter)), &
+                              real(i - 1, wp)/size(parameter))
+        call newton%log%waiting('')
         call derive_by(scene, parameter(i), bearing, newton, tangent, form, change(:, :, i), words, at)
         found(i) = words == ''
         if (.not. found(i)) problem = parameter(i)%key%label()//': '//words
       end do
+      call newton%log%is_at('')
     end associate
     PetscCallA(MatDestroy(bearing%jacobian, ierr))
     bearing%jacobian = of_newton
@@ -204,7 +210,7 @@ contains
       call free_equations(frozen)
       return
     end if
-    call respond(scene, bearing, form, response)
+    call respond(scene, bearing, form, response, newton%log)
     form%closed = closed_contacts(bearing)
     allocate (form%motion(bearing%local_size(), 2, planar))
     associate (part => response%part(1), one => response%one, other => response%other, rate => form%rate)
@@ -241,13 +247,14 @@ contains
   end subroutine find_motions
 
   !> A bearing's response to vibrations, its foil weighed or not as at the answer.
-  subroutine respond(scene, bearing, form, response)
+  subroutine respond(scene, bearing, form, response, log)
     type(scene_type), intent(in) :: scene !! of the bearing
     type(bearing_system_type), intent(inout) :: bearing
     type(whirl_form_type), intent(in) :: form
     type(dynamic_response_type), intent(out) :: response !! to be destroyed
+    type(run_log_type), optional, intent(in) :: log !! where something is factored
 
-    call create_response(bearing, vibration_of(scene), response)
+    call create_response(bearing, vibration_of(scene), response, log=log)
     call give_mass(bearing, response, merge(mass_on, mass_off, form%weighs), scene%foil_damping%foil_modes, &
                    aimag(form%rate))
   end subroutine respond

@@ -21,6 +21,8 @@
 module gfb_dynamic_response
   use petscmat
   use gfb_kinds, only: wp
+  use gfb_run_log, only: run_log_type
+  use gfb_text, only: text
   use gfb_units, only: turn
   use gfb_bearing_system, only: bearing_system_type
   use gfb_petsc_session, only: sum_over_ranks
@@ -57,6 +59,7 @@ module gfb_dynamic_response
     integer :: factorizations = 0 !! so far
     integer :: enlargements = 0   !! of the factors' workspace
     integer :: status = 0         !! of the last solver that was prepared, negative where it cannot solve
+    type(run_log_type) :: log     !! where lines of progress go; without a memory none are written
     integer, allocatable :: motion(:) !! of the shaft's coordinates, those that move the film
     type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
@@ -125,19 +128,22 @@ contains
   end function against_mirror
 
   !> Linearises a bearing about its present state, which must be an answer and is left as it is.
-  subroutine create_response(bearing, vibration, response, opposite)
+  subroutine create_response(bearing, vibration, response, opposite, log)
     type(bearing_system_type), intent(inout) :: bearing !! pads and shaft
     type(vibration_type), intent(in) :: vibration !! of the foil
     type(dynamic_response_type), intent(out) :: response !! to vibrations of the shaft
     !> the bearing of tilts, where foils on half the width move with them: without it tilts are not answered; it moves
     !> into the response
     type(bearing_system_type), allocatable, optional, intent(inout) :: opposite
+    type(run_log_type), optional, intent(in) :: log !! where lines of progress go
     PetscErrorCode :: ierr
 
+    if (present(log)) response%log = log
     if (present(opposite)) call move_alloc(opposite, response%opposite_bearing)
     call linearise_steady(bearing, vibration%stick, response%equations%steady, response%opposite_bearing)
     if (allocated(response%opposite_bearing)) then
       allocate (response%opposite)
+      response%opposite%log = response%log
       call linearise_exactly(response%opposite_bearing, .true.)
       PetscCallA(MatDuplicate(response%opposite_bearing%jacobian, MAT_COPY_VALUES, response%opposite%equations%steady, ierr))
       call complete_response(response%opposite_bearing, vibration, response%opposite)
@@ -466,6 +472,7 @@ contains
     logical, intent(out) :: made  !! else nothing can be solved
 
     response%factorizations = response%factorizations + 1
+    call response%log%waiting('factorization '//text(response%factorizations)//' of vibrations')
     associate (equations => response%equations)
       call response%part(number)%solver%prepare(equations%real_part, equations%imaginary_part, response%status, &
                                                 response%enlargements)

@@ -94,7 +94,6 @@ contains
       next = model%part(number)%next_sample(frequency, error)
       if (next == 0) exit
       call log%is_at('vibration at '//text(frequency(next), 4)//' rad/s')
-      call log%waiting('')
       call add_sample(bearing, response, number, frequency(next), model, found)
       if (.not. found) exit
     end do

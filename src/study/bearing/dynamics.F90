@@ -72,7 +72,7 @@ contains
     allocate (found(0))
     if (.not. scene%sweep%present) call log%heading('small vibrations')
     if (first) call describe(scene, log)
-    call start_response(scene, bearing, response, record%problem)
+    call start_response(scene, log, bearing, response, record%problem)
     if (allocated(record%problem)) return
     call describe_mass(scene, log, response%equations%inertia, first)
     call fill_coefficients(scene, log, bearing, response, model, point, record%problem)
@@ -260,7 +260,7 @@ contains
       excess = mass_excess(scene%rotor%mass, whirl%critical_mass, whirl%found)
       return
     end if
-    call start_response(scene, bearing, response, problem)
+    call start_response(scene, newton%log, bearing, response, problem)
     if (allocated(problem)) return
     call find_rotor_modes(bearing, response, rotor_of(scene), answer)
     if (.not. answer%found) then
@@ -301,7 +301,7 @@ contains
       call free_equations(frozen)
       return
     end if
-    call create_response(bearing, vibration_of(scene), response)
+    call create_response(bearing, vibration_of(scene), response, log=newton%log)
     call choose_mass(scene, bearing, response)
     call find_critical_mass(bearing, response, newton%log, model, whirl)
     if (.not. whirl%searched) problem = response_failure(response)
@@ -318,8 +318,9 @@ contains
   end function rotor_of
 
   !> The bearing linearised at its answer, with that of tilts where half the width is solved and their foil is another.
-  subroutine start_response(scene, bearing, response, problem)
+  subroutine start_response(scene, log, bearing, response, problem)
     type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
     type(bearing_system_type), intent(inout) :: bearing
     type(dynamic_response_type), intent(out) :: response
     character(len=:), allocatable, intent(inout) :: problem !! why there is none
@@ -334,7 +335,7 @@ contains
         return
       end if
     end if
-    call create_response(bearing, vibration_of(scene), response, opposite)
+    call create_response(bearing, vibration_of(scene), response, opposite, log)
     call choose_mass(scene, bearing, response)
   end subroutine start_response
 
