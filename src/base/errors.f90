@@ -10,7 +10,7 @@ module gfb_errors
   integer, parameter, public :: status_input = 1   !! the input is wrong
   integer, parameter, public :: status_machine = 3 !! a file or the machine failed
 
-  !> A failure and what to tell the user.
+  !> A failure and what to say to the user.
   type :: error_type
     character(len=:), allocatable :: message !! one mistake a line
     integer :: status = status_input         !! exit status of the program

@@ -1,6 +1,6 @@
 !> The error of a number that was computed on nested meshes.
 !>
-!> With values f on meshes that are each twice as fine as the one before, the last three tell the
+!> With values f on meshes that are each twice as fine as the one before, the last three give the
 !> order \( p = \log_2 |f_2 - f_1| / |f_3 - f_2| \), and the error of the finest one is estimated by
 !>
 !> $$ E = F_s \frac{|f_3 - f_2|}{2^q - 1} $$

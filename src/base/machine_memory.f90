@@ -1,4 +1,4 @@
-!> How much memory this machine still has, as Linux tells it.
+!> How much memory this machine still has, as Linux reports it.
 module gfb_machine_memory
   use, intrinsic :: iso_c_binding, only: c_size_t
   use gfb_kinds, only: wp
@@ -10,7 +10,7 @@ module gfb_machine_memory
   integer(c_size_t), parameter, public :: room_to_start = 96*mebibyte !! of MPI and PETSc [B]
   !> Of HDF5, beside what is written [B].
   integer(c_size_t), parameter, public :: room_to_write = 16*mebibyte
-  real(wp), parameter :: unknown_memory = huge(1.0_wp) !! where nothing tells
+  real(wp), parameter :: unknown_memory = huge(1.0_wp) !! where nothing says how much
   real(wp), parameter :: kilobyte = 1024.0_wp          !! the kernel's kB [B]
   integer, parameter :: longest_line = 500
 

@@ -1,4 +1,4 @@
-/* The end of a run for want of memory, told in a sentence: Fortran's allocations, and the wait for BLAS' working memory. */
+/* The end of a run for want of memory, said in a sentence: Fortran's allocations, and the wait for BLAS' working memory. */
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -51,7 +51,7 @@ extern void dsyrk_(const char *half, const char *transposed, const int *order, c
                    const double *a, const int *rows, const double *kept, double *c, const int *rows_of_c);
 
 /* BLAS takes its working memory at its first product, and keeps it. Where OpenBLAS gets none, it asks again for ever: so this is
-   asked for where its want can be told. */
+   asked for where its want can be reported. */
 void gfb_start_blas(void)
 {
   enum { order = 8 };

@@ -253,7 +253,7 @@ contains
     end select
   end function marker_words
 
-  !> Whether a name begins and ends as a row's name does before and behind its marks: told soon.
+  !> Whether a name begins and ends as a row's name does before and behind its marks: cheap to test.
   pure logical function may_fit(pattern, name) result(may)
     character(len=*), intent(in) :: pattern !! a row's name
     character(len=*), intent(in) :: name

@@ -488,7 +488,7 @@ module gfb_result_table
     result_type('limit_reached', '1', truth, bearing, &
       'whether the limit asked for is reached; 0: the branch of answers ends before', &
       'of the last three analyses: 1 where film or asperities are at the limit asked for, 0 '// &
-      'where the branch of answers ends before, and its end is what is told'), &
+      'where the branch of answers ends before, and the end is the result'), &
     result_type('d_<quantity>_d_<key>', own_quotient, number, bearing, &
       'derivative of {<quantity> by a key of the case file}', &
       'of `&sensitivity`: derivative of a quantity by a key, `_` in the place of its `%`; unit '// &

@@ -12,7 +12,7 @@ module gfb_run_log
   character(len=*), parameter :: bold = '1', yellow = '33', red = '31'
 
   integer, parameter :: widest_waiting = 79       !! a longer line breaks, and could not be renewed
-  real(wp), parameter :: least_share = 0.02_wp    !! of a way that tells how long the rest takes [1]
+  real(wp), parameter :: least_share = 0.02_wp    !! of a way that shows how long the rest takes [1]
 
   !> How much of something long is behind.
   type :: way_type
@@ -25,7 +25,7 @@ module gfb_run_log
 
   !> What all copies of a run's log know together.
   type :: log_memory_type
-    character(len=:), allocatable :: warnings !! told so far, each with its end
+    character(len=:), allocatable :: warnings !! said so far, each with its end
     type(way_type) :: task !! of many points, members or times, for waiting lines
     type(way_type) :: step !! the way from one of them to the next
     character(len=:), allocatable :: mesh !! of several, on which it lies; empty: there is one
@@ -36,7 +36,7 @@ module gfb_run_log
   !> Where the lines of a run go; silent on all ranks but one.
   type :: run_log_type
     logical :: active = .true.   !! this rank prints
-    logical :: silent = .false.  !! tells what waits alone, such as a sample's member
+    logical :: silent = .false.  !! says what waits alone, such as a sample's member
     logical :: verbose = .false. !! iterations too, not only events
     logical :: quiet = .false.   !! stages alone, with the time so far
     integer :: unit = output_unit !! where to; what is no terminal takes the complaints too
@@ -71,7 +71,7 @@ contains
     self%colours = self%terminal .and. length == 0
   end subroutine run_log_begin
 
-  !> A memory of its own for a log: warnings, and since when nothing has been told.
+  !> A memory of its own for a log: warnings, and since when nothing has been said.
   subroutine run_log_remember(self)
     class(run_log_type), intent(inout) :: self !! the log
 
@@ -90,7 +90,7 @@ contains
     if (.not. self%quiet) call self%tell(words)
   end subroutine run_log_line
 
-  !> What is found of a state: a quiet log tells it where the state does not stay.
+  !> What is found of a state: a quiet log says it where the state does not stay.
   subroutine run_log_judged(self, words, stays)
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
@@ -100,7 +100,7 @@ contains
     if (.not. stays) call self%tell(words)
   end subroutine run_log_judged
 
-  !> What is told however quiet the log is.
+  !> What is said however quiet the log is.
   subroutine run_log_tell(self, words)
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the line
@@ -206,10 +206,10 @@ contains
     end if
   end subroutine advance
 
-  !> The last step of a long computation: told where nothing else was for a while, with the time.
+  !> The last step of a long computation: said where nothing else was for a while, with the time.
   !>
   !> On a terminal it is one line that stays where it is, renewed every second; elsewhere lines.
-  !> A verbose log tells every iteration, a quiet one its stages alone.
+  !> A verbose log shows every iteration, a quiet one its stages alone.
   subroutine run_log_waiting(self, words)
     class(run_log_type), intent(in) :: self !! the log
     character(len=*), intent(in) :: words !! the step that is done; empty: where it is says all
@@ -304,7 +304,7 @@ contains
     call self%warned('warning: '//words)
   end subroutine run_log_warning
 
-  !> Tells warnings that are new, such as one that every point of a sweep has, and keeps them for
+  !> Says warnings that are new, such as one that every point of a sweep has, and keeps them for
   !> the end.
   subroutine run_log_warned(self, words)
     class(run_log_type), intent(in) :: self !! the log
@@ -318,7 +318,7 @@ contains
     call self%tell(coloured(self%colours, yellow, words))
   end subroutine run_log_warned
 
-  !> Tells all warnings again, where the answer stands, and forgets them.
+  !> Says all warnings again, where the answer stands, and forgets them.
   subroutine run_log_repeat_warnings(self)
     class(run_log_type), intent(in) :: self !! the log
 

@@ -3,7 +3,7 @@
 !>
 !> `gfb_bench_varied_strip ARC FLAT AXIAL BUMPS`: elements of a bump's arc, of its flat, over the
 !> width; bumps that grow along the strip. Writes lines `name,value`; what the steps cost, PETSc's
-!> log tells (`-log_view`). `tools/bench scaling` makes a table of it.
+!> log shows (`-log_view`). `tools/bench scaling` makes a table of it.
 program gfb_bench_varied_strip
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type

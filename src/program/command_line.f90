@@ -341,7 +341,7 @@ contains
     call get_command_argument(number, word)
   end function argument
 
-  !> What a run is told, which begins now.
+  !> What a run is given, which begins now.
   function run_context(self, log) result(context)
     class(command_line_type), intent(in) :: self !! the command line
     type(run_log_type), intent(in) :: log !! the terminal

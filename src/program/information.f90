@@ -1,4 +1,4 @@
-!> What the program tells of itself, without a case: help, keys, results, and case files to begin
+!> What the program says of itself, without a case: help, keys, results, and case files to begin
 !> with, that have every key of an analysis with unit, default and meaning.
 module gfb_information
   use gfb_errors, only: error_type, fail
@@ -267,9 +267,9 @@ contains
             'units.'//next// &
             '! A key in a comment shows its default; take away its ''!'' to give another '// &
             'value.'//next// &
-            '! The same holds for groups in comments. gfb --check CASE.nml tells of '// &
+            '! The same holds for groups in comments. gfb --check CASE.nml shows '// &
             'mistakes,'//next// &
-            '! gfb --explain KEY of a key.'//next// &
+            '! gfb --explain KEY says what a key means.'//next// &
             written(keys%book%keys(:keys%book%count), example)
   end subroutine template_text
 

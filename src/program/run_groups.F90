@@ -204,7 +204,7 @@ contains
   !> One sweep divided, or several cases.
   !>
   !> Fails before anything is computed, with all mistakes of all files. Later failures are those of
-  !> members: they are told, and `status` says so.
+  !> members: they are reported, and `status` says so.
   subroutine run_groups(line, pool, log, status, error)
     type(command_line_type), intent(in) :: line !! what was typed
     type(pool_type), target, intent(inout) :: pool !! whose groups compute
@@ -441,7 +441,7 @@ contains
     call study%discard()
   end subroutine run_divided_sample
 
-  !> Writes all members, and tells the terminal.
+  !> Writes all members, and says so on the terminal.
   subroutine write_all(scene, context, pool, study, total, status)
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context

@@ -471,7 +471,7 @@ contains
                   pair(answer%force_without_suction(4:5), 'mN m', 1.0e3_wp))
   end subroutine show_shaft
 
-  !> Whose forces are told: the film's alone, or all with those of solid contact.
+  !> Whose forces are reported: the film's alone, or all with those of solid contact.
   pure function forces_of(answer) result(who)
     type(bearing_answer_type), intent(in) :: answer
     character(len=4) :: who

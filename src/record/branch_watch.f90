@@ -1,13 +1,13 @@
 !> Whether the answers of a sweep stay on one branch of equilibria, where a bearing may have
 !> several: where the leading edge of its top foil is free.
 !>
-!> Another branch is told by one of three signs:
+!> Another branch is recognised by one of three signs:
 !>
 !> - the determinant of the equations' matrix has changed its sign, and no fold was turned: between
 !>   two answers on one branch it changes only at folds;
 !> - the free edge has moved by more than 0.2 C beyond the line through the two answers before, and
 !>   by more than that line foretells; after one answer only, by more than 0.4 C;
-!> - the smallest film has done so; after one answer only it tells nothing.
+!> - the smallest film has done so; after one answer only it shows nothing.
 !>
 !> The line is one over the logarithm of the parameter where its values have one sign: over that
 !> the film of one branch is nearly straight. Where a path of short steps has led to the answer,

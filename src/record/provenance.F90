@@ -62,7 +62,7 @@ contains
       ' '//zone
   end function date_text
 
-  !> Name of the BLAS this process has loaded, as the system tells it, and its kernel.
+  !> Name of the BLAS this process has loaded, as the system names it, and its kernel.
   function blas_in_use() result(name)
     character(len=:), allocatable :: name, path
     character(len=1024) :: line

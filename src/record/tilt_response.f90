@@ -1,4 +1,4 @@
-!> What a sweep of tilt tells beside the answers: angular stiffness, and the equilibrium at which
+!> What a sweep of tilt gives beside the answers: angular stiffness, and the equilibrium at which
 !> the shaft is fixed.
 module gfb_tilt_response
   use gfb_kinds, only: wp
@@ -177,7 +177,7 @@ contains
     end do
   end subroutine add_slopes
 
-  !> Saves or restores what a sweep has told so far.
+  !> Saves or restores what a sweep has given so far.
   pure subroutine visit_response(archive, response)
     type(archive_type), intent(inout) :: archive !! that saves or restores
     type(tilt_response_type), intent(inout) :: response !! written where the archive restores

@@ -101,7 +101,7 @@ contains
             operation%axial_load < tan(bearing%half_angle)*norm2(operation%load)
   end function takes_suction
 
-  !> Without a foil that gives way an axial position leaves a gap all around.
+  !> Without a foil that deflects an axial position leaves a gap all around.
   subroutine check_shift(keys, bearing, operation)
     type(case_keys_type), intent(inout) :: keys
     type(bearing_case_type), intent(in) :: bearing

@@ -1,5 +1,5 @@
 !> Foils as they are built: gaps at crests need a model in which crests touch something, sizes bump
-!> by bump one that has the bumps, foils that lie with a force at rest one in which they give way;
+!> by bump one that has the bumps, foils that lie with a force at rest one in which they deflect;
 !> strips side by side with sizes of their own need shells, and room for their bumps.
 module gfb_foil_rules
   use gfb_kinds, only: wp
@@ -240,7 +240,7 @@ contains
     end associate
   end subroutine check_steepness
 
-  !> Complains about a foil that cannot give way, and warns of one that rises by more than there
+  !> Complains about a foil that cannot deflect, and warns of one that rises by more than there
   !> is room for.
   subroutine check_assembly(keys, scene)
     type(case_keys_type), intent(inout) :: keys
@@ -256,7 +256,7 @@ contains
       if (.not. bearing) then
         call keys%complain('bearing', key, 'needs a bearing with a film')
       else if (.not. scene%model%foil%deflects) then
-        call keys%complain('bearing', key, 'needs a foil that gives way: '// &
+        call keys%complain('bearing', key, 'needs a foil that deflects: '// &
                            "another one than 'rigid' in &model; a smaller clearance is the same")
       else if (partitioned) then
         call keys%complain('bearing', key, monolithic)
@@ -264,7 +264,7 @@ contains
         call keys%rule('bearing', key, clearance > 0.0_wp .and. &
                        scene%bearing%interference >= clearance, 'needs '// &
                        "foundation_pressure = 'axial_mean' in &model: under the local pressure "// &
-                       'the sides, at ambient pressure, never give way')
+                       'the sides, at ambient pressure, never deflect')
       end if
     end if
     if (.not. scene%top_foil%free_radius > 0.0_wp) return

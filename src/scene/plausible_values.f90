@@ -1,4 +1,4 @@
-!> Values that a case file may have and yet hardly means, most often a number in another unit: the
+!> Values that a case file may have and yet are improbable, most often a number in another unit: the
 !> usual ranges of the real keys; each has a row here, or a reason for having none.
 module gfb_plausible_values
   use gfb_kinds, only: wp
@@ -212,7 +212,7 @@ module gfb_plausible_values
 
 contains
 
-  !> Warns of values that are hardly meant, key by key.
+  !> Warns of improbable values, key by key.
   subroutine check_plausible(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
@@ -414,7 +414,7 @@ contains
     end associate
   end subroutine warn_of_reference
 
-  !> Warns of a ring that is hardly meant, and of a runner that would burst.
+  !> Warns of an improbable ring, and of a runner that would burst.
   subroutine warn_of_shape(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene

@@ -38,7 +38,7 @@ module gfb_scene
     character(len=:), allocatable :: name      !! of the file, without folder and ending
     character(len=:), allocatable :: verbatim  !! text of the file
     character(len=:), allocatable :: echo      !! the same with every value used; can be run again
-    character(len=:), allocatable :: warnings  !! of values that are hardly meant, one a line
+    character(len=:), allocatable :: warnings  !! of improbable values, one a line
     character(len=:), allocatable :: hints     !! of keys that have moved, one a line
     type(scene_case_type) :: general
     type(bearing_case_type) :: bearing

@@ -251,7 +251,7 @@ contains
           call keys%complain('sample', parameters, problem)
         end if
         if (problem /= '' .or. size(asked%factors) /= size(list)) cycle
-        if (.not. asked%factors(i) >= 1.0_wp) cycle ! which was told
+        if (.not. asked%factors(i) >= 1.0_wp) cycle ! which was reported
         do k = -1, 1, 2 ! both ends
           words = text_with_key(scene, scene%verbatim, one%key, one%value*asked%factors(i)**k)
           call read_and_check(words, scene%file, .false., changed, there, strict)

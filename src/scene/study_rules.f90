@@ -200,7 +200,7 @@ contains
       call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                      "must be 'monolithic' where a limit is looked for: film and foil in turns "// &
                      'follow no path to it')
-      ! A lift-off speed is looked for by doubling and halving, a load capacity is told over the
+      ! A lift-off speed is looked for by doubling and halving, a load capacity is given over the
       ! speed; other rules see to a shaft without asperities, and to speeds below zero.
       if (limit /= limit_tilt .and. scene%shaft_contact%present) then
         still = "must be positive with analysis = '"//trim(scene%general%asked%word)//"'"

@@ -13,8 +13,8 @@ module gfb_reasons
   integer, parameter, public :: reason_load_step = 4      !! of a strip: step `at` of `of`
   integer, parameter, public :: reason_few_modes = 5      !! `at` of them were found
   integer, parameter, public :: reason_inaccurate = 6     !! the number's error is too large
-  integer, parameter, public :: reason_failed = 7         !! an error, which `detail` tells
-  integer, parameter, public :: reason_stopped = 8        !! by a signal, which `detail` tells
+  integer, parameter, public :: reason_failed = 7         !! an error, which `detail` describes
+  integer, parameter, public :: reason_stopped = 8        !! by a signal, which `detail` names
   integer, parameter, public :: reason_out_of_time = 11   !! the time limit stopped it
   integer, parameter, public :: reason_members = 12       !! of a sample without an answer
   integer, parameter, public :: reason_no_limit = 9       !! of load, speed or tilt

@@ -24,7 +24,7 @@ module gfb_run_context
   end type run_listener_type
 
   abstract interface
-    !> Hears of an event; all ranks tell it.
+    !> Hears of an event; all ranks report it.
     subroutine hear(self, words)
       import :: run_listener_type
       implicit none (type, external)

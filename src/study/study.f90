@@ -46,7 +46,7 @@ module gfb_study
   end type study_type
 
   abstract interface
-    !> Plans the study, and tells the log why.
+    !> Plans the study, and logs why.
     subroutine prepare_study(self, scene, log)
       import :: study_type, scene_type, run_log_type
       implicit none (type, external)
@@ -152,7 +152,7 @@ contains
   !>
   !> Fails where the scene cannot be computed, and when a file cannot be written.
   subroutine run_study(study, scene, context, summary, error)
-    class(study_type), target, intent(inout) :: study !! which tells whether it has an answer
+    class(study_type), target, intent(inout) :: study !! which says whether it has an answer
     type(scene_type), intent(in) :: scene !! that is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what was written of the answer

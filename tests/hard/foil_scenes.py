@@ -250,7 +250,7 @@ def reversals(trial):
 
 @scene("Reversals", "the same, friction that starts anew at a reversal: creeps on, less each cycle", iterations=1500)
 def creep(trial):
-    """What starts anew holds nothing back at first, so the foil gives way a little at each reversal; its stiffness ends it."""
+    """What starts anew holds nothing back at first, so the foil deflects a little at each reversal; its stiffness ends it."""
     change = numpy.abs(numpy.diff(cycles(trial, "tanh_reset")[1]))
     trial.that(f"less each cycle: {change}", all(numpy.diff(change) < 0.0))
     trial.says("change of a cycle " + ", ".join(f"{one:.1e}" for one in change) + " C")

@@ -92,7 +92,7 @@ def hard_contact(trial):
     off = -numpy.diff(travel)
     ratios = off[:-1]/off[1:]
     for power, ratio in zip(range(8, 13), ratios):
-        # soft contacts give way as much as the bumps, and their lines share the load in another way
+        # soft contacts deflect as much as the bumps, and their lines share the load in another way
         trial.within(f"fall of the difference at 1e{power}", ratio, 9.0 if power == 8 else 9.8, 11.0 if power == 8 else 10.2)
     trial.says("differences fall by " + ", ".join(f"{ratio:.2f}" for ratio in ratios))
 
@@ -136,7 +136,7 @@ def thickness(trial):
     found = numpy.array([t**3/stiffness_of(trial, t) for t in sheets])
     b = (found[-1] - found[0])/(sheets[-1]**2 - sheets[0]**2)
     wanted = found[0] + b*(sheets**2 - sheets[0]**2)
-    trial.that("stretching gives way, too", b > 0.0)
+    trial.that("stretching deflects, too", b > 0.0)
     worst = numpy.abs(found/wanted - 1.0).max()
     trial.below("compliance as foretold", worst, 2.0e-2)
     trial.says(f"compliance as predicted to {worst:.0e}")

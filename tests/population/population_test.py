@@ -71,7 +71,7 @@ def check_words(checks):
             ("suction", 2, said + "the film draws the free edge of the top foil to the shaft"),
             (trial.NO_REASON, 2, said + "lost at 20 % of the load: fixed at 5 heights the free edge of the top foil needs 2 N or more"),
             (trial.GAVE_UP, 2, said + "lost at 20 % of the load: the search gave up, after 1500 factorizations (maximum_factorizations in &solver)"),
-            (trial.NO_REASON, 2, said + "no step, however short, leads on"), (trial.BROKEN, 76, ""), (trial.BROKEN, -11, ""),
+            (trial.NO_REASON, 2, said + "no step converges, however short"), (trial.BROKEN, 76, ""), (trial.BROKEN, -11, ""),
             (trial.BOUND, -24, ""), (trial.INVALID, 1, "")):
         checks.that(f"status {status} '{log[-30:]}' is {expected}", trial.outcome_of(status, log) == expected)
     some = members.random_set(6, members.MODELS)

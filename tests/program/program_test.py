@@ -264,7 +264,7 @@ def check_colours(checks, folder):
 
 
 def check_warnings(checks, folder):
-    """A value that is hardly meant is told before and after the answer; with --strict it is a mistake. None that come
+    """An improbable value is reported before and after the answer; with --strict it is a mistake. None that come
     with gfb is."""
     odd = GOOD.replace("viscosity = 2e-05", "viscosity = 2e-03")
     (folder/"odd.nml").write_text(odd, encoding="utf-8")

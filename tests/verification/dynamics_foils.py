@@ -75,7 +75,7 @@ def check_mesh(checks, folder):
 
 
 def check_losses(checks, folder):
-    """A foil whose own stiffness is huge by its losses stays where it is: stiffer than one that gives way."""
+    """A foil whose own stiffness is huge by its losses stays where it is: stiffer than one that deflects."""
     case = beams(0.1) | {"tilt": (0.0, 0.0)}
     case["groups"]["model"]["half_width"] = "yes"
     case["groups"]["mesh"] = {}

@@ -89,7 +89,7 @@ def check_mean(checks, folder):
 
 
 def check_large_deflection(checks, folder):
-    """Springs that give way by much of the bumps' height: the log says so, and not of stiffer ones."""
+    """Springs that deflect by much of the bumps' height: the log says so, and not of stiffer ones."""
     for stiffness, warned in ((2.0e9, True), (2.0e10, False)):
         answer = solve(folder, "soft", {
             "bearing": {"radius": 0.02, "length": 0.04, "clearance": 3.0e-5},

@@ -94,7 +94,7 @@ def check_equal(checks, folder):
 
 
 def check_bearings(checks, folder):
-    """Under a film: half and whole width, condensed and full, two ranks; forces balance; softer edges give way."""
+    """Under a film: half and whole width, condensed and full, two ranks; forces balance; softer edges deflect."""
     foil = {**FOIL, "bumps": 26, "fixed_edge": "trailing", "fixed_line": "half_flat"}
     cut = {"strips": 3, "cut_width": CUT}
     own = {**cut, "half_length": None, "strip_half_length": [1.95e-3, 1.778e-3, 1.95e-3], "thickness": None,
@@ -119,7 +119,7 @@ def check_bearings(checks, folder):
             edge = (numpy.abs(points[:, 0] - points[at, 0]) < 1.0e-9) & (points[:, 2] == points[:, 2].max())
             sag[name] = moved[edge, 1][0]/moved[at, 1]
     print(f"       deflection of the edge over that of the middle: {sag['own']:.3f}; of equal strips {sag['plain']:.3f}")
-    checks.that("softer edges give way more, against the middle", sag["own"] > 1.1*sag["plain"])
+    checks.that("softer edges deflect more, against the middle", sag["own"] > 1.1*sag["plain"])
 
 
 def main():

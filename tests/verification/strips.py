@@ -183,7 +183,7 @@ def check_numbers(checks, folder):
     checks.that("contacts by default: no warning", "warning: contacts" not in plain.log and "warning: stick_length" not in plain.log)
     soft = squeezed("soft", normal_stiffness=1.0e9)
     off = 100.0*(soft["maximum_deflection"]/plain["maximum_deflection"] - 1.0)
-    told = re.search(r"contacts give way by up to \S+ um, (\S+) % of the deflection .*: normal_stiffness = 1e9 in &contact", soft.log)
+    told = re.search(r"contacts penetrate by up to \S+ um, (\S+) % of the deflection .*: normal_stiffness = 1e9 in &contact", soft.log)
     checks.within(f"soft contacts: {off:.2g} % off, and the warning says so", off/float(told[1]) if told else 0.0, 0.5, 2.0)
     drawn = squeezed("drawn", stick_length=2.0e-7)
     lost = 100.0*(1.0 - drawn["dissipated_energy"]/plain["dissipated_energy"])

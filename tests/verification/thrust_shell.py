@@ -116,7 +116,7 @@ def check_derivatives(checks, folder):
 
 
 def check_strips(checks, folder):
-    """Strips that nearly touch give way where each repeats at its own mean radius; strips and edges of all kinds have answers."""
+    """Strips that nearly touch deflect where each repeats at its own mean radius; strips and edges of all kinds have answers."""
     cut = {"strips": 2, "cut_width": 1.0e-3}
     full, condensed = (solve(folder, "cut", shells(LOAD, model={"reduction": way}, bumps=cut | {"fixed_edge": "leading"}))
                        for way in ("none", "guyan"))

@@ -1,4 +1,4 @@
-# Whether the libraries that were found fit each other and gfb: each that does not is told in a sentence, all of them at once.
+# Whether the libraries that were found fit each other and gfb: each that does not is named in a sentence, all of them at once.
 
 # gfb_definitions(result name folder...): what stands behind each `#define` of a header, in the first folder that has it.
 function(gfb_definitions result name)

@@ -5,7 +5,7 @@
 file(STRINGS ${PROJECT_SOURCE_DIR}/tools/setup.sh python REGEX "^report_packages=")
 string(REGEX MATCHALL "python3-[a-z0-9]+" python "${python}")
 list(JOIN python ", " python)
-# Packages of one version for several systems are told apart, and that of the later release of a system is the newer one.
+# Packages of one version for several systems are distinguished, and that of the later release of a system is the newer one.
 set(release 1)
 if(EXISTS /etc/os-release)
   file(STRINGS /etc/os-release system REGEX "^(ID|VERSION_ID)=")

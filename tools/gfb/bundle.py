@@ -28,7 +28,7 @@ MOST_STEPS = 2000    # of the models, which cost no run; a search that has not e
 
 @dataclasses.dataclass
 class Plane:
-    """What a run has told: objective first, then constraints, which shall not be positive."""
+    """What a run has given: objective first, then constraints, which shall not be positive."""
 
     place: numpy.ndarray
     values: numpy.ndarray
@@ -70,11 +70,11 @@ def minimise(function: Function, start: numpy.ndarray, tolerance: float) -> str:
         elif gain < -promised or promise(planes, centre, step, penalty) > 0.5*promised:  # too far for the planes, or let down too much
             reach *= SHORTER
         planes = sorted(planes, key=lambda plane: float(numpy.sum((plane.place - centre.place)**2)))[:MOST_PLANES]
-    return "no step leads on"
+    return "no step improves the best run"
 
 
 def plane_at(function: Function, place: numpy.ndarray) -> Plane | None:
-    """What a run tells; None where there is no answer."""
+    """What a run gives; None where there is no answer."""
     found = function(place)
     return None if found is None else Plane(place, *found)
 

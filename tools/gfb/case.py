@@ -43,7 +43,7 @@ class Case(MutableMapping[str, Any]):
 
     @classmethod
     def parse(cls, text: str) -> Case:
-        """The text of a case file. What is wrong in it is told by `check`; what is no value of a namelist is a CaseError."""
+        """The text of a case file. What is wrong in it is found by `check`; what is no value of a namelist is a CaseError."""
         return cls(groups_of(text))
 
     def is_thrust(self) -> bool:

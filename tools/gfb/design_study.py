@@ -98,7 +98,7 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     parts = parts_of(case, smallest_gap, grade)
-    if parts[0].case is not None:  # what is wrong with the case itself is told
+    if parts[0].case is not None:  # what is wrong with the case itself is said
         parts[0].case.check(gfb=gfb)
     for part in parts:
         check_part(part, gfb)
@@ -254,7 +254,7 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
             if wanted:
                 found.append(compared("load", f"load capacity {capacity:.4g} N at {column(run, 'speed_rpm')[there]:,.0f} rpm", f"the load is {wanted:.4g} N",
                                       capacity/wanted))
-        elif part.name == "whirl":  # of its own speed the operating point tells
+        elif part.name == "whirl":  # its own speed is that of the operating point
             found += [one for one in run["margins"] if one.value.startswith(ONSET)]
         else:
             own = margins_of(Results(run["summary"], run["used"], run["place"]), gap)

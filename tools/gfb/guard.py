@@ -42,7 +42,7 @@ def look_through(file, size):
 
 
 def words_of(name):
-    """A name as it is told: of a long one the beginning."""
+    """A name as it is printed: of a long one the beginning."""
     return (name if len(name) < 100 else name[:100] + b"...").decode("utf-8", "replace")
 
 

@@ -204,7 +204,7 @@ def slsqp(runner: Runner, goal: Goal, start: numpy.ndarray, tolerance: float) ->
     except Enough:
         if len(runner.runs) >= runner.most_runs:
             raise
-        return "no step leads to an answer"
+        return "the steps tried have no answer"
     return str(done.message)
 
 

@@ -33,7 +33,7 @@ class Unreadable(Unfit):
 
 @contextlib.contextmanager
 def reading(path):
-    """What goes wrong inside is the file's fault; one that is not there is told apart, by FileNotFoundError."""
+    """What goes wrong inside is the file's fault; one that is not there is distinguished, by FileNotFoundError."""
     try:
         yield
     except (Unreadable, FileNotFoundError):

@@ -30,7 +30,7 @@ class Fit:
     constant: numpy.ndarray  # D
     rate: numpy.ndarray      # E
     deviation: float = numpy.nan  # largest at the data's frequencies, relative
-    between: float = numpy.nan    # the same at every second frequency, of a fit that was not told of them
+    between: float = numpy.nan    # the same at every second frequency, of a fit that did not have them
 
     def __call__(self, s):
         """Z (row, column) at complex s; (..., row, column) at several."""

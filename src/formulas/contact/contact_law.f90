@@ -270,7 +270,7 @@ contains
   !> Where on its law a contact is linearised next.
   !>
   !> At its approach, but where a sliding contact turned back it is first taken to stick: from one
-  !> sliding direction to the other the law has no slope that would tell of the path between.
+  !> sliding direction to the other the law has no slope that would show the path between.
   pure function next_place(law, place, approach) result(next)
     type(contact_law_type), intent(in) :: law !! stiffness and friction of the contact
     real(wp), intent(in) :: place(3)    !! where it was linearised [m]

@@ -16,7 +16,7 @@ module gfb_film_flow
 
 contains
 
-  !> The flow where the surface is faster than where its speed is told.
+  !> The flow where the surface is faster than where its speed is given.
   elemental function flow_here(flow, stretch) result(here)
     type(film_flow_type), intent(in) :: flow !! at the radius where arcs are measured
     real(wp), intent(in) :: stretch !! see `gfb_film_surface` [1]

@@ -1,4 +1,4 @@
-!> A Maxwell arm, spring and dashpot in series, beside a spring that yields by h.
+!> A Maxwell arm, spring and dashpot in series, beside a spring that deflects by h.
 !>
 !> The dashpot's own way q relaxes towards h, and the arm carries what is left of it:
 !>

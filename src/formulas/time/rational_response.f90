@@ -10,7 +10,7 @@
 !> and \( Z(s) \approx (Z_1, Z_2, ...) (M - s L)^{-1} (Z_1; Z_2; ...) \) is what the equations give
 !> that are projected onto the motions at these rates, from both sides: it has the values and
 !> slopes there, and its error is the product of both projections'. Where the response to a real
-!> motion is real the conjugate rates are samples, too. Directions that the samples do not tell
+!> motion is real the conjugate rates are samples, too. Directions that the samples do not show
 !> from round-off are left out. Source: [MayoAntoulas2007].
 module gfb_rational_response
   use gfb_kinds, only: wp
@@ -25,7 +25,7 @@ module gfb_rational_response
   !> samples; a function that needs more costs more than they do
   integer, parameter :: most_fitted = 24
 
-  !> Loewner's matrices, reduced to what the samples tell.
+  !> Loewner's matrices, reduced to what the samples show.
   type :: fit_type
     complex(wp), allocatable :: slope(:, :), value(:, :) !! L and M
     complex(wp), allocatable :: right(:, :), left(:, :)  !! of the samples' values
@@ -176,7 +176,7 @@ contains
   end function next_sample
 
   !> Rates at which the function is infinite: those of motions that die out or grow by themselves
-  !> while the shaft is held, of all that the samples tell.
+  !> while the shaft is held, of all that the samples show.
   pure function poles(self) result(rate)
     class(rational_response_type), intent(in) :: self !! with samples that fit
     complex(wp), allocatable :: rate(:) !! [rad/s]

@@ -51,7 +51,7 @@ contains
     call place_block_unknowns(bearing)
   end subroutine number_unknowns
 
-  !> Tells all blocks where their unknowns stand.
+  !> Gives all blocks the places of their unknowns.
   pure subroutine place_block_unknowns(bearing)
     class(bearing_type), intent(inout) :: bearing !! numbered
     type(bearing_block_type) :: block

@@ -41,7 +41,7 @@ module gfb_film_heat
 
 contains
 
-  !> Adds what elements say of film and heat, and tells what those of all ranks take at each local unknown of a pressure.
+  !> Adds what elements say of film and heat, and returns what those of all ranks take at each local unknown of a pressure.
   function heat_flows(bearing, state, residual) result(flow)
     class(bearing_type), intent(in) :: bearing !! with heat
     type(bearing_state_type), intent(in) :: state !! of it

@@ -1,4 +1,4 @@
-!> How far contacts give way and slide at an answer: what the numbers of their laws are judged by.
+!> How far contacts penetrate and slide at an answer: what the numbers of their laws are judged by.
 module gfb_contact_measures
   use gfb_kinds, only: wp
   use gfb_contact_set, only: contact_set_type

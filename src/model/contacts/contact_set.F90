@@ -3,7 +3,7 @@
 !> Geometry is that of the unloaded foils: displacements are small. Each contact remembers where
 !> on its law it is linearised. Within a Newton step its force is the law's tangent there, a pure
 !> function of the unknowns; `settle` moves the linearisation points after the step. So the matrix
-!> tells the whole of a step, and a contact that jumps from one state to another cannot spoil the
+!> describes the whole of a step, and a contact that jumps from one state to another cannot spoil the
 !> line search.
 module gfb_contact_set
   use gfb_kinds, only: wp
@@ -120,7 +120,7 @@ contains
     end do
   end subroutine settle
 
-  !> Linearises every contact where that of a set like this one is, which also tells what it remembers. So the
+  !> Linearises every contact where that of a set like this one is, which also sets what it remembers. So the
   !> contacts stay open, stick or slide as those do, whatever gaps and laws are here.
   pure subroutine settle_like(self, other)
     class(contact_set_type), intent(inout) :: self !! this rank's contacts

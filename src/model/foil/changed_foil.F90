@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> Foils of shells or beams with other numbers on the same mesh of the film.
 !>
-!> Their matrix stays as it is. What another thickness, material or shape of the bumps does to it is told by the work of the
+!> Their matrix stays as it is. What another thickness, material or shape of the bumps does to it follows from the work of the
 !> elastic forces of a motion on others, element by element. Condensed pieces keep their constraint modes T, which gives the
 !> work to first order, \( d\tilde{K} = T^T dK T \), as derivatives need it.
 module gfb_changed_foil

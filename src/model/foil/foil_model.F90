@@ -202,7 +202,7 @@ contains
     class(foil_model_type), intent(inout) :: self !! the foil
   end subroutine destroy
 
-  !> Tells the foil where its unknowns stand among those of the bearing.
+  !> Gives the foil the places of its unknowns among those of the bearing.
   pure subroutine place(self, first)
     class(foil_model_type), intent(inout) :: self !! the foil
     integer, intent(in) :: first !! local unknowns before the foil's first

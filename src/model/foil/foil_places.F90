@@ -92,7 +92,7 @@ contains
     call set_initial_moment(scene%top_foil, scene%bearing%radius, foil)
   end subroutine set_laws
 
-  !> Numbers the unknowns that this rank needs, and tells contacts and film nodes the numbers.
+  !> Numbers the unknowns that this rank needs, and gives contacts and film nodes the numbers.
   subroutine place_unknowns(foil, first, sunk)
     class(meshed_foil_type), intent(inout) :: foil !! with its contacts' unknowns in the foil's own numbers
     integer, intent(in) :: first   !! foil's unknowns of the ranks before this one
@@ -185,7 +185,7 @@ contains
     nodes = size(element_nodes, 1)
     unit = pressure_weights(nodes)
     moment = pressure_moments(nodes)
-    ! Pressures that yield to the foil couple its nodes; those of a cell are coupled anyway.
+    ! Pressures that follow the foil couple its nodes; those of a cell are coupled anyway.
     foil%has_room = yields .and. nodes > corners
     foil%pressed = element_nodes
     allocate (foil%pushed(nodes, size(element_nodes, 2)))

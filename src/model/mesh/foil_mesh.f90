@@ -142,7 +142,7 @@ contains
     end do
   end subroutine put_strip
 
-  !> Tells pieces apart that differ on one more strip.
+  !> Distinguishes pieces that differ on one more strip.
   pure subroutine join_kinds(kind, other)
     integer, intent(inout) :: kind(:) !! of the pieces, numbered in order of their first
     integer, intent(in) :: other(:)   !! their kinds on the other strip

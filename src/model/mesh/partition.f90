@@ -51,7 +51,7 @@ module gfb_partition
 
 contains
 
-  !> Pieces with given bounds, and as many unknowns each as they are told.
+  !> Pieces with given bounds, and as many unknowns each as given.
   pure function chain(bound, weight, closed) result(made)
     real(wp), intent(in) :: bound(:)  !! rising [m]
     real(wp), intent(in) :: weight(:) !! unknowns of each link [1]

@@ -1,5 +1,5 @@
 #include "gfb_petsc.h"
-!> Rows of a sparse matrix as copies: what PETSc lends of them differs between its versions.
+!> Rows of a sparse matrix as copies: how PETSc gives access to them differs between its versions.
 module gfb_matrix_rows
   use petscmat
   use gfb_petsc_kinds, only: pint

@@ -150,7 +150,7 @@ contains
     whole%v = handle
   end subroutine create_whole
 
-  !> Tells the DMPlex which rank each of this rank's cells goes to.
+  !> Gives the DMPlex the rank that each of this rank's cells goes to.
   subroutine set_partition(communicator, whole, column_part, cells_a_column)
     integer, intent(in) :: communicator, column_part(:), cells_a_column
     DM, intent(in) :: whole

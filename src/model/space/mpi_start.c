@@ -106,7 +106,7 @@ static void end_of_start(void)
   MPI_Initialized(&begun);
   if (begun) MPI_Finalized(&ended);
   if (ended) return; /* PETSc has done what it was asked for, such as -help intro */
-  if (begun) fprintf(stderr, "gfb: PETSc could not start: what it was told, by PETSC_OPTIONS or a file of options, does not serve\n");
+  if (begun) fprintf(stderr, "gfb: PETSc could not start: an option in PETSC_OPTIONS or in a file of options is wrong\n");
   else say_not_started();
   remove_session();
   _Exit(status_machine);
@@ -203,7 +203,7 @@ static const char *own_options(char path[], size_t room)
   return "/dev/null";
 }
 
-/* PETSc reads three files by itself, two of them in the current folder: told to skip them, it gets the home's by name. Files that
+/* PETSc reads three files by itself, two of them in the current folder: asked to skip them, it gets the home's by name. Files that
    the user names, and PETSC_OPTIONS, it reads as ever; its arguments outlive this call. */
 PetscErrorCode gfb_start_slepc(MPI_Fint communicator, const char words[], size_t length)
 {
@@ -222,7 +222,7 @@ PetscErrorCode gfb_start_slepc(MPI_Fint communicator, const char words[], size_t
   MPI_Initialized(&begun);
   if (begun && communicator != 0 && MPI_Comm_f2c(communicator) != MPI_COMM_NULL) PETSC_COMM_WORLD = MPI_Comm_f2c(communicator);
   gfb_start_mpi();
-  if (!begun) PetscBeganMPI = PETSC_TRUE; /* it ends MPI, also where it is told to end early */
+  if (!begun) PetscBeganMPI = PETSC_TRUE; /* it ends MPI, also where an option ends it early */
   watch_start();
   PetscCall(SlepcInitialize(&count, &arguments, file, NULL));
   PetscCall(SlepcInitializeFortran());

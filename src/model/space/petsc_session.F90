@@ -65,7 +65,7 @@ module gfb_petsc_session
 
 contains
 
-  !> What the environment (PETSC_OPTIONS), an options file or the command line has told PETSc to do otherwise; empty
+  !> What the environment (PETSC_OPTIONS), an options file or the command line has set otherwise for PETSc; empty
   !> where nothing. To be asked before the program sets options itself.
   function given_petsc_options() result(words)
     character(len=:), allocatable :: words
@@ -76,7 +76,7 @@ contains
 
     allocate (all(longest))
     ierr = gfb_all_options(c_loc(all), int(longest, c_size_t))
-    if (ierr /= 0) error stop 'PETSc does not tell its options'
+    if (ierr /= 0) error stop 'PETSc does not list its options'
     line = repeat(' ', longest)
     do i = 1, longest
       if (all(i) == c_null_char) exit
@@ -159,7 +159,7 @@ contains
 
   !> Ends SLEPc, PETSc and MPI.
   subroutine stop_petsc(well)
-    logical, intent(out), optional :: well !! they have done what options told them to do at the end
+    logical, intent(out), optional :: well !! they have done what options ask them to do at the end
     PetscErrorCode :: ierr
 
     call gfb_computing(0_c_int)

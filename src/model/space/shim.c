@@ -7,7 +7,7 @@
 
 static const int status_machine = 3;
 
-/* Otherwise PETSc starts or ends, where all that fails is what it was told to do. */
+/* Otherwise PETSc starts or ends, where all that fails is what an option asks for. */
 static int computing = 0;
 
 void gfb_computing(int now)

@@ -76,7 +76,7 @@ static int read_seal(int file, long long size, char found[seal_length + 1])
   return fits_memory(size) ? 0 : EFBIG;
 }
 
-/* 0: what stands in the file is what was written; -1: it ends without checksum; -2: something has changed. What tells at its end
+/* 0: what stands in the file is what was written; -1: it ends without checksum; -2: something has changed. What says at its end
    that it is no such file is not read. */
 int gfb_check_seal(const char *path)
 {

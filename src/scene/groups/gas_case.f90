@@ -254,7 +254,7 @@ contains
     end subroutine check_rising
   end subroutine read_table
 
-  !> Whether no key is missing, which is told of later.
+  !> Whether no key is missing, which is reported later.
   pure logical function is_complete(said, gas) result(complete)
     type(gas_keys_type), intent(in) :: said
     type(gas_case_type), intent(in) :: gas

@@ -25,8 +25,8 @@ module gfb_scene_case
     logical :: top_mass = .false. !! its density
     logical :: bumps = .false.    !! their shape: the strip, or a part of it, is meshed
     logical :: mass = .false.     !! its density
-    logical :: pitch = .false.    !! more of it than an arc is meshed, and no pad tells the pitch
-    logical :: width = .false.    !! of the strip: no bearing tells it
+    logical :: pitch = .false.    !! more of it than an arc is meshed, and no pad gives the pitch
+    logical :: width = .false.    !! of the strip: no bearing gives it
     character(len=20) :: weightless = '' !! why no answer follows a density; empty: one may
   end type needs_type
 

@@ -298,7 +298,7 @@ contains
                         '`''operation%load''` is its magnitude', .true.)
     call keys%real_list_key('tolerances', sensitivity%tolerances, most_tolerances, &
                             'those of parameters', 'standard deviation of each of them: the '// &
-                            'variance is told that they cause', not_negative, .false., 'none')
+                            'variance that they cause is a result', not_negative, .false., 'none')
   end subroutine read_sensitivity_case
 
   !> Which of the results are of something.

@@ -24,7 +24,7 @@ module gfb_case_reader
     type(key_book_type) :: book             !! the groups and keys there are
     type(key_type) :: key                   !! the one that is being read
     integer, private :: mistakes_before = 0 !! the key that is being read
-    integer, private :: keys_scanned_wrong = 0 !! whose mistakes the scanner has told
+    integer, private :: keys_scanned_wrong = 0 !! whose mistakes the scanner has reported
     logical, private :: strict = .false.    !! warnings are mistakes
     integer, private :: group_acts_on = acts_on_nothing !! where its keys do not say otherwise
     character(len=:), allocatable, private :: why_idle  !! no answer follows the next keys
@@ -139,7 +139,7 @@ contains
     end do
   end subroutine finish
 
-  !> All mistakes as one error, with the warnings, which may tell why; none where the file is right.
+  !> All mistakes as one error, with the warnings, which may show why; none where the file is right.
   subroutine report(self, error)
     class(case_reader_type), intent(in) :: self !! the keys being read
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
@@ -210,7 +210,7 @@ contains
     end do
   end subroutine refuse
 
-  !> Warns of a key whose value is allowed and hardly meant; a mistake where the reader is strict.
+  !> Warns of a key whose value is allowed but improbable; a mistake where the reader is strict.
   subroutine warn(self, group, key, words, element)
     class(case_reader_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: group, key !! names in the case file
@@ -335,7 +335,7 @@ contains
     right = self%key%given .and. self%mistakes() == self%mistakes_before
   end function last_key_is_right
 
-  !> A count that grows with every mistake that is met, be it one that was told before.
+  !> A count that grows with every mistake that is met, be it one that was reported before.
   pure function mistakes(self)
     class(case_reader_type), intent(in) :: self !! the keys being read
     integer :: mistakes
@@ -462,7 +462,7 @@ contains
     call self%complain_value(item, element, problem)
   end subroutine take_choice
 
-  !> Complains about one value of the key; nothing where there is no problem, or one was told.
+  !> Complains about one value of the key; nothing where there is no problem, or one was reported.
   subroutine complain_value(self, item, element, problem)
     class(case_reader_type), intent(inout) :: self !! the keys being read
     integer, intent(in) :: item               !! the value's number in the file

@@ -94,7 +94,7 @@ contains
     if (problem == '') problem = binary_problem(words)
   end subroutine look_at_bytes
 
-  !> Whether a text is of characters of two or four bytes: its mark tells, or a zero byte in its
+  !> Whether a text is of characters of two or four bytes: its mark shows it, or a zero byte in its
   !> first character.
   pure logical function is_wide(words) result(wide)
     character(len=*), intent(in) :: words

@@ -1,4 +1,4 @@
-!> The mistakes of one case file, collected so that all are told at once.
+!> The mistakes of one case file, collected so that all are reported at once.
 module gfb_complaints
   use gfb_text, only: text
   implicit none (type, external)

@@ -43,7 +43,7 @@ module gfb_key_book
     real(wp), allocatable :: numbers(:)             !! the same, of real keys [unit]
     logical :: required = .false.
     logical :: given = .false.      !! it stands in the file
-    logical :: unread = .false.     !! so that its values could not be told apart
+    logical :: unread = .false.     !! so that its values could not be distinguished
     logical :: missing = .false.    !! required, its group is there, and it is not
     logical :: misspelt = .false.   !! the file has an unknown name that is nearest to this one
     logical :: is_default = .false. !! it is given the value that holds without it

@@ -1,5 +1,5 @@
 !> Keys that had another group, or several, in the version before: there they are still read, and
-!> the user is told of the new one.
+!> the user gets the new one.
 module gfb_moved_keys
   implicit none (type, external)
   private

@@ -345,7 +345,7 @@ contains
     if (status < 0) words = failure_in_words(status)
   end function factors_failure
 
-  !> Factors tell the determinant.
+  !> Factors have the determinant.
   pure logical function factors_have_one() result(has)
     has = .true.
   end function factors_have_one

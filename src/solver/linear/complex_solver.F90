@@ -58,7 +58,7 @@ module gfb_complex_solver
 
 contains
 
-  !> Whether the solver tells the determinant; by itself it does not.
+  !> Whether the solver has the determinant; by itself it does not.
   pure logical function no_determinant() result(has)
     has = .false.
   end function no_determinant

@@ -177,7 +177,7 @@ contains
     PetscErrorCode :: ierr
     integer :: i, k, pad, kept, modes
 
-    ! One mode more tells what is left out.
+    ! One mode more shows what is left out.
     call reduce_matrices(piece%stiffness, piece%mass, piece%is_retained, wanted + 1, reduced)
     kept = reduced%retained
     modes = min(wanted, reduced%modes)

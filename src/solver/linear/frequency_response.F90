@@ -6,7 +6,7 @@
 !> function most, until it moved no entry by more than the tolerance, at its own frequency by what is solved there, at the others
 !> by what the function says; what it moves next is less by orders of magnitude.
 !>
-!> The function also tells where frequencies must stand so that straight lines from one to the next are the coefficients. Lines
+!> The function also shows where frequencies must stand so that straight lines from one to the next are the coefficients. Lines
 !> between two neighbours are compared with it at quarters of their way and next to each rate \( -\delta + i \omega \) of a motion
 !> that film and foil have by themselves while the shaft is held: at \( \omega \), where its peak is, and at
 !> \( \omega \pm \delta \), where its sides are steepest. A line that misses anywhere is halved, so that frequencies do not hang on
@@ -142,7 +142,7 @@ contains
     if (allocated(model%opposite)) is = is_function(model%opposite) .and. is
   end function is_function
 
-  !> Rates of the motions that film and foil have by themselves while the shaft is held, of all that the samples tell.
+  !> Rates of the motions that film and foil have by themselves while the shaft is held, of all that the samples show.
   pure recursive function poles_of(model) result(rate)
     type(frequency_response_type), intent(in) :: model !! with a function through its samples
     complex(wp), allocatable :: rate(:) !! [rad/s]

@@ -40,7 +40,7 @@ module gfb_bent_step
 
 contains
 
-  !> Follows a step from its beginning to its end, or to where no path leads on.
+  !> Follows a step from its beginning to its end, or to where no path continues.
   subroutine bend_step(snes, system, x, y, path, ierr)
     SNES, intent(in) :: snes !! with factors of the matrix at x
     class(nonlinear_system_type), intent(inout) :: system !! the equations

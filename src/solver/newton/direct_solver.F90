@@ -1,9 +1,9 @@
 #include "gfb_petsc.h"
-!> A linear solver that factors its matrix, and what the factors tell of it.
+!> A linear solver that factors its matrix, and what the factors show of it.
 !>
 !> KLU has the matrices whose factors stay sparse, MUMPS all others: of films on springs or beams KLU's factors take a third
 !> to two thirds of the time, since MUMPS is made for blocks that are dense. On several ranks each makes KLU's factors of the
-!> whole matrix, where it is small: what MUMPS' ranks tell each other takes longer than these.
+!> whole matrix, where it is small: what MUMPS' ranks send each other takes longer than these.
 !>
 !> PETSc does not factor again with what MUMPS failed on once: after a zero pivot it takes the next factors
 !> for made although MUMPS was not called, after any other failure it repeats the failure. So factors that
@@ -316,7 +316,7 @@ contains
     call make_factors(linear, matrix, made, enlargements)
     if (.not. made) return
     PetscCallA(KSPGetPC(linear, factors, ierr))
-    if (gfb_klu_sign(int(factors%v, c_intptr_t), told) /= 0) error stop 'PETSc does not tell of KLU''s factors'
+    if (gfb_klu_sign(int(factors%v, c_intptr_t), told) /= 0) error stop 'PETSc does not say whether KLU has made the factors'
     sign_of_determinant = int(told)
     if (.not. are_of_mumps(factors)) return
     PetscCallA(PCFactorGetMatrix(factors, factor, ierr))

@@ -6,11 +6,11 @@
 #include <stdint.h>
 #include <petscpc.h>
 
-/* A PC (its Fortran handle) becomes KLU's factors of its matrix; `has` tells whether the program was built with KLU. */
+/* A PC (its Fortran handle) becomes KLU's factors of its matrix; `has` says whether the program was built with KLU. */
 PetscErrorCode gfb_use_klu(intptr_t handle, int *has);
 /* Drops KLU's factors and their pivots, if the PC has any: the next ones do not depend on those before. */
 PetscErrorCode gfb_forget_klu(intptr_t handle);
-/* Sign of the determinant that the present factors tell: 1, -1; 0 where the PC has none of KLU's. */
+/* Sign of the determinant that the present factors give: 1, -1; 0 where the PC has none of KLU's. */
 PetscErrorCode gfb_klu_sign(intptr_t handle, int *sign);
 /* Entries of the present factors over those that pivots on the diagonal leave; 0 where the PC has none of KLU's. */
 PetscErrorCode gfb_klu_fill(intptr_t handle, double *fill);

@@ -128,7 +128,7 @@ contains
   pure function remaining_error(line) result(error)
     type(line_search_type), intent(in) :: line !! what the steps have been
     real(wp) :: error !! relative [1]
-    real(wp), parameter :: steady = 0.5_wp !! a step over the one before, where that can be told [1]
+    real(wp), parameter :: steady = 0.5_wp !! a step over the one before, where that is known [1]
     real(wp), parameter :: caution = 1000.0_wp !! two steps are few [1]
 
     error = huge(error)
@@ -246,7 +246,7 @@ contains
   end subroutine find_length
 
   !> Takes a trial as the new state; contacts follow it. Where its residual is small enough the work of forces is that of
-  !> round-off, and tells nothing of the step's length.
+  !> round-off, and says nothing of the step's length.
   subroutine move_there(line, system, snes, residual_goal, x, f, y, trial, trial_residual, ierr)
     type(line_search_type), intent(inout) :: line
     class(nonlinear_system_type), target, intent(inout) :: system

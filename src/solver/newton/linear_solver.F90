@@ -264,7 +264,7 @@ contains
     ierr = 0
     fill = .true.
     if (slow_change) then
-      ! To PETSc -2 is: new factors now, -1: none until told.
+      ! To PETSc -2 is: new factors now, -1: none until asked.
       solver%fresh = merge(solver%level%outdated, solver%lagged%outdated, solver%iterates)
       PetscCall(SNESSetLagPreconditioner(snes, merge(-2_pint, -1_pint, solver%fresh), ierr))
     else

@@ -8,7 +8,7 @@
 !> A residual cannot become smaller than what rounding leaves of the sums it is made of. Where it is
 !> no larger than that, and the steps shrink no more, there is nothing left to find: the state solves
 !> equations whose coefficients differ from the given ones in the last digits, by the theorem of
-!> Oettli and Prager. Such a solve is said to have converged at round-off, and its last step tells how
+!> Oettli and Prager. Such a solve is said to have converged at round-off, and its last step shows how
 !> many digits the equations have. A state that is no answer has a residual far above that.
 !>
 !> What rounding may leave of a residual.
@@ -53,7 +53,7 @@ module gfb_newton
   !> Roundings of a row's sum that do not cancel each other, with those of the solution before it.
   real(wp), parameter :: roundings = 4.0_wp
 
-  real(wp), parameter :: careful = 1.0e-3_wp !! of the step's tolerance, where nothing tells how steps shrink [1]
+  real(wp), parameter :: careful = 1.0e-3_wp !! of the step's tolerance, where nothing shows how steps shrink [1]
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
 
   !> When to stop.

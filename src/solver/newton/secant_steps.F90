@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> What the steps of Newton's method with kept factors teach of the matrix: Broyden's method.
 !>
-!> Two steps \( y_n, y_{n+1} \) in succession, \( x_{n+1} = x_n - y_n \), tell how the residual has changed along the first
+!> Two steps \( y_n, y_{n+1} \) in succession, \( x_{n+1} = x_n - y_n \), show how the residual has changed along the first
 !> one. The least change of the inverse that agrees with it is a dyad,
 !>
 !> $$ H_{n+1} = \Bigl( I + \frac{y_{n+1} y_n^T}{y_n^T y_n} \Bigr) H_n, \quad
@@ -133,7 +133,7 @@ contains
     PetscCall(VecDotEnd(secants%last, y, product(secants%pairs + 1), ierr))
   end subroutine sum_products
 
-  !> A step was taken: where whole, the next one will tell something of the matrix.
+  !> A step was taken: where whole, the next one will say something of the matrix.
   subroutine expect_next(secants, y, whole, ierr)
     type(secants_type), intent(inout) :: secants !! keep the step
     Vec, intent(in) :: y !! it, scaled

@@ -97,7 +97,7 @@ contains
 
   !> Whether a search has to end: a signal asks for it, or it has spent what it may.
   !>
-  !> No solve converges then, and one that does not tells nothing of the bearing.
+  !> No solve converges then, and one that does not says nothing of the bearing.
   logical function gives_up(bound) result(ends)
     type(work_bound_type), pointer, intent(in) :: bound !! of the search; null: there is none
     ends = stop_agreed() .or. is_spent(bound)

@@ -82,7 +82,7 @@ contains
     if (of_foil) call create_yielding(side, film)
   end subroutine create_side
 
-  !> Room for how the pressures yield to the foil.
+  !> Room for how the pressures follow the foil.
   subroutine create_yielding(side, film)
     type(coupling_side_type), intent(inout) :: side
     PetscInt, intent(in) :: film(:) !! this rank's pressures among the bearing's unknowns
@@ -225,7 +225,7 @@ contains
     if (self%of_foil) call stiffen(self)
   end subroutine linearise_side
 
-  !> Adds to the foil's matrix that the pressures yield.
+  !> Adds to the foil's matrix that the pressures follow it.
   subroutine stiffen(self)
     type(coupling_side_type), intent(inout) :: self
     MatReuse :: reuse

@@ -8,7 +8,7 @@
 !>
 !> A step from an answer \( x_0 \) goes along the tangent \( t \), and ends where
 !> \( t \cdot (x - x_0) = s \) ([Riks1979]). The sign of the determinant of the equations bordered by the
-!> tangent is the same all along a branch: it tells the tangent's sense.
+!> tangent is the same all along a branch: it gives the tangent's sense.
 !>
 !> Where contacts open or close the branch has corners; a step round one goes along the penetration of
 !> the contact that changes, which grows evenly while all else may turn back.

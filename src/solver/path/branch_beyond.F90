@@ -22,7 +22,7 @@ module gfb_branch_beyond
   real(wp), parameter :: first_move = 1.0e-3_wp    !! of the edge, over the clearance [1]
   real(wp), parameter :: shortest_move = 1.0e-9_wp
   real(wp), parameter :: longest_change = 0.02_wp     !! of any unknown in a move; beyond, it is another branch
-  real(wp), parameter :: closest_change = 2.0e-3_wp   !! of any unknown, that tells where a fold lies
+  real(wp), parameter :: closest_change = 2.0e-3_wp   !! of any unknown, that shows where a fold lies
   integer, parameter :: most_moves = 16            !! of contacts: more name a fold, and find no answer
   integer, parameter :: most_smooth_moves = 600    !! without contacts, where moves cost next to nothing
   integer, parameter :: easy_iterations = 6        !! a move that took no more of them is doubled

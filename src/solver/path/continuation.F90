@@ -36,7 +36,7 @@ module gfb_continuation
 
   real(wp), parameter :: shortest_first = 0.01_wp    !! least step over the first one [1]
   integer, parameter :: closing_steps = 40           !! more, where the gap is closing
-  integer, parameter :: most_rescues = 4             !! of a path on which no step leads on
+  integer, parameter :: most_rescues = 4             !! of a path on which no step converges
   integer, parameter :: straight_before_leap = 3     !! Newton steps, before they are bent
   real(wp), parameter :: leaps(3) = [0.002_wp, 0.02_wp, 0.1_wp] !! of the path that is left [1]
   !> A trial short of a fold fails, too: where the branch turns no farther off than this, over the trial's step, it is one [1].
@@ -94,7 +94,7 @@ contains
     type(path_settings_type), intent(in) :: settings !! limits of the path
     type(path_report_type), intent(out) :: report !! how far it led
     Vec, intent(in), optional :: rate !! of the state where the path begins, by the share of the path
-    character(len=*), intent(in), optional :: course !! from where to where it leads, for lines that tell how far it is
+    character(len=*), intent(in), optional :: course !! from where to where it leads, for lines that say how far it is
 
     type(point_path_type) :: path
     real(wp) :: smallest
@@ -231,10 +231,10 @@ contains
     logical, intent(out) :: continues
     logical :: has_told
 
-    self%why = 'no step, however short, leads on ('//self%why//')'
+    self%why = 'no step converges, however short ('//self%why//')'
     continues = .false.
     if (.not. (self%settings%look_for_folds .and. self%bearing%floats)) return
-    ! A film without contacts that closes or is emptied has told its end; beyond it there is only rounding.
+    ! A film without contacts that closes or is emptied has shown its end; beyond it there is only rounding.
     has_told = is_closing(self%bearing)
     if (.not. has_told) has_told = is_emptied(self%bearing, bearing_answer(self%bearing))
     if (has_told .and. .not. self%bearing%has_contacts()) return
@@ -250,7 +250,7 @@ contains
     too_thin = self%bearing%smallest_gap() < self%settings%touch_down_gap
   end function too_thin
 
-  !> Where no step leads on: goes to the very end of the branch, or past what hindered.
+  !> Where no step converges: goes to the very end of the branch, or past what hindered.
   subroutine find_end(path, continues)
     class(point_path_type), intent(inout) :: path
     logical, intent(out) :: continues

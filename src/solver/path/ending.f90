@@ -11,7 +11,7 @@ module gfb_ending
   public :: path_reached, path_touches, path_touches_at, path_thins, path_closes, path_folds
   public :: path_empties, path_is_drawn, path_heats_up, path_stopped, path_lost
 
-  integer, parameter, public :: ending_lost = 0       !! nothing shows why no step leads on
+  integer, parameter, public :: ending_lost = 0       !! nothing shows why no step converges
   integer, parameter, public :: ending_reached = 1    !! the state asked for
   integer, parameter, public :: ending_touch_down = 2 !! the shaft comes too near
   integer, parameter, public :: ending_fold = 3       !! the branch of answers turns back
@@ -128,7 +128,7 @@ contains
     ending = ending_of(ending_touch_down, 'the film is thinner than touch_down_gap')
   end function path_thins
 
-  !> The gap has closed, and no step leads on.
+  !> The gap has closed, and no step converges.
   pure function path_closes(gap, lost) result(ending)
     real(wp), intent(in) :: gap !! smallest of the last state [m]
     type(ending_type), intent(in) :: lost !! how the last step ended
@@ -193,13 +193,13 @@ contains
     ending = ending_of(ending_stopped, gave_up_words)
   end function path_stopped
 
-  !> Nothing shows why no step leads on.
+  !> Nothing shows why no step converges.
   pure function path_lost(last) result(ending)
     character(len=*), intent(in) :: last !! what the last step has ended in
     type(ending_type) :: ending
 
     ending = ending_of(ending_lost, last)
-    if (last == '') ending = ending_of(ending_lost, 'no step leads on')
+    if (last == '') ending = ending_of(ending_lost, 'no step converges')
   end function path_lost
 
   !> Adds an answer.

@@ -12,7 +12,7 @@ module gfb_stepper
 
   integer, parameter, public :: steps_arrived = 0  !! at the end of the path
   integer, parameter, public :: steps_too_far = 1  !! where the problem says so
-  integer, parameter, public :: steps_too_short = 2 !! none, however short, leads on
+  integer, parameter, public :: steps_too_short = 2 !! none converges, however short
   integer, parameter, public :: steps_spent = 3    !! all are
   integer, parameter, public :: steps_given_up = 4 !! the problem gives up
 

@@ -1,7 +1,7 @@
 #include "gfb_petsc.h"
 !> What damped springs of an elastic foundation remember beside the unknowns, as entries of a point of a map over a period.
 !>
-!> Under local pressures deflections have no unknowns, and pressures alone do not tell them where dampers or Maxwell arms feel
+!> Under local pressures deflections have no unknowns, and pressures alone do not give them where dampers or Maxwell arms feel
 !> how fast they change. The ways of the arms' dashpots never have any. Both are there now and one step ago.
 module gfb_map_springs
   use petscvec

@@ -32,7 +32,7 @@ module gfb_rotor_modes
   public :: find_rotor_modes, find_axial_mode, find_all_modes
 
   real(wp), parameter :: shift = 0.5_wp        !! next to which modes are looked for, over the speed [1]
-  real(wp), parameter :: highest = 1.5_wp      !! frequency of a mode that is told, over the speed [1]
+  real(wp), parameter :: highest = 1.5_wp      !! frequency of a mode that is reported, over the speed [1]
   real(wp), parameter :: room = 1.3_wp         !! of the largest circle over the least [1]
   real(wp), parameter :: most_damped = 0.5_wp  !! damping ratio of a mode that is followed [1]
   integer, parameter :: damper_steps = 8       !! in which dampers are let grow

@@ -329,7 +329,7 @@ contains
   !> The rotor's motion in a mode, and what share it has. Its displacement in the bearing over the clearance, squared,
   !> stands for an energy \( p_a C A / 2 \) of a film that is trapped; beside it are what the film stores by its pressures
   !> and the foil's strain and kinetic energy (`energies_of`). That is multiplied by the rotor's part of the kinetic energy
-  !> of rotor and foil, so that a foil that takes a heavy rotor along by next to nothing is not the rotor. That part tells
+  !> of rotor and foil, so that a foil that takes a heavy rotor along by next to nothing is not the rotor. That part shows
   !> rotor from foil: where either vibrates by itself it is half of the energy, and the other half strains what carries it.
   subroutine weigh(pencil, real_part, imaginary_part, mode)
     type(pencil_type), intent(in) :: pencil

@@ -2,14 +2,14 @@
 !> are known.
 !>
 !> The function is real on the real axis, so its zeros are real or come in conjugate pairs, and the
-!> upper half of the circle tells all. With the known zeros \( \lambda_j \) divided out,
+!> upper half of the circle is enough. With the known zeros \( \lambda_j \) divided out,
 !>
 !> $$ g(\lambda) = f(\lambda) / \prod_j (\lambda - \lambda_j), $$
 !>
 !> the phase of g changes by \( \pi \) times the number of zeros left inside while \( \lambda \)
 !> goes along the upper half of the circle (argument principle). Thousands of zeros far outside
 !> change it, too, but not between the ends of the half circle; nearly all of that is \( a \sin
-!> \theta \), with the same a as in the modulus, \( a \cos \theta \), whose ends tell it: it is
+!> \theta \), with the same a as in the modulus, \( a \cos \theta \), whose ends give it: it is
 !> taken away. The half circle is divided until no step changes what is left by more than a fixed
 !> angle; a zero that is not known and lies next to the circle makes a step of about half a turn
 !> and is not passed over.
@@ -27,7 +27,7 @@ module gfb_zero_count
   integer, parameter, public :: most_places = 400 !! more mean that the phase has no sense
 
   !> The half circle and what is known along it. Fill the first three, then ask for places and
-  !> tell values.
+  !> give values.
   type, public :: mode_count_type
     real(wp) :: centre = 0.0_wp           !! [1/s]
     real(wp) :: radius = 0.0_wp           !! [1/s]
@@ -104,7 +104,7 @@ contains
     end associate
   end function mean
 
-  !> Takes a number of zeros to lie at the centre; values that were told follow.
+  !> Takes a number of zeros to lie at the centre; values that were given follow.
   pure subroutine put_at_centre(count, zeros)
     class(mode_count_type), intent(inout) :: count
     integer, intent(in) :: zeros !! all of them, those of before too

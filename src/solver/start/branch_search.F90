@@ -27,7 +27,7 @@ module gfb_branch_search
   public :: take_branch, destroy_branches, lifts_of_pads, find_branches, seek_branch
 
   real(wp), parameter :: same_state = 1.0e-4_wp !! largest difference of scaled unknowns of one and the same [1]
-  real(wp), parameter :: same_lifts = 1.0e-10_wp !! of midplane and ends, that are not told apart [m]
+  real(wp), parameter :: same_lifts = 1.0e-10_wp !! of midplane and ends, that are not distinguished [m]
 
   !> An equilibrium.
   type :: branch_type
@@ -65,7 +65,7 @@ contains
   subroutine collect(self, bearing, newton)
     class(branch_search_type), intent(inout) :: self !! the search
     type(bearing_system_type), intent(in) :: bearing !! in equilibrium
-    type(newton_type), intent(in) :: newton          !! its solver, whose log tells of a new one
+    type(newton_type), intent(in) :: newton          !! its solver, whose log names a new one
     type(branch_type) :: new
     real(wp) :: difference
     Vec :: work

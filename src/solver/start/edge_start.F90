@@ -3,7 +3,7 @@
 !>
 !> The film's suction may draw the free edge of the top foil off its bumps: an unstable motion that
 !> hides what equilibria there are from Newton's method. With the edge fixed at a height the rest has
-!> an answer, and the force that holds it there tells more: where it changes its sense from one height
+!> an answer, and the force that holds it there shows more: where it changes its sense from one height
 !> to the next the edge stays between them by itself, and where it never does it stays nowhere.
 !> Edges of several pads are released one after the other.
 module gfb_edge_start
@@ -306,7 +306,7 @@ contains
     settings%step_tolerance = max(settings%step_tolerance, rough_step)
   end subroutine be_rough
 
-  !> Fixes the edge at another height, and tells the force that it takes.
+  !> Fixes the edge at another height, and returns the force that it takes.
   subroutine move_edge(problem, pad, settings, height, force, report)
     type(start_problem_type), intent(in) :: problem
     integer, intent(in) :: pad !! whose edge it is
@@ -323,7 +323,7 @@ contains
     call note_height(problem, pad, force)
   end subroutine move_edge
 
-  !> Tells a height and its force.
+  !> Logs a height and its force.
   subroutine note_height(problem, pad, force)
     type(start_problem_type), intent(in) :: problem
     integer, intent(in) :: pad

@@ -167,7 +167,7 @@ contains
     else if (touched .and. ending /= steps_given_up) then
       report%ending = path_touches_at('where the interference is '//text(path%at*interference, 4)//' m')
     else
-      report%ending = path_lost('no step leads beyond an interference of '//text(path%at*interference, 4)//' m: '//path%solved%reason)
+      report%ending = path_lost('no step converges beyond an interference of '//text(path%at*interference, 4)//' m: '//path%solved%reason)
     end if
   end subroutine close_interference
 

@@ -89,7 +89,7 @@ contains
       scene%bearing%row%has_half_width
   end function can_halve
 
-  !> Few rows, or else half the stations of film and top foil; a fixed shaft, which cannot give way where the foil deflects
+  !> Few rows, or else half the stations of film and top foil; a fixed shaft, which cannot move away where the foil deflects
   !> otherwise, keeps its stations.
   subroutine coarsen_foils(scene, plan, found, small, small_plan)
     type(scene_type), intent(in) :: scene

@@ -179,7 +179,7 @@ contains
 
     associate (asked => scene%sensitivity)
       do i = 1, size(derivative)
-        if (ieee_is_nan(derivative(i))) cycle ! there is none, which was told
+        if (ieee_is_nan(derivative(i))) cycle ! there is none, which was reported
         associate (key => asked%parameter(i))
           full = 'd_'//name//'_d_'//result_part(key%key)
           call add_quantity(list, number_quantity(full, derivative(i), quotient_unit(result_unit(name), key%unit), &

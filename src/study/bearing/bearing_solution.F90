@@ -135,7 +135,7 @@ contains
   end subroutine resume
 
   !> From the present answer to that of a sweep's point: along a path, or from nothing where that is lost on the way and nothing
-  !> tells why.
+  !> says why.
   !>
   !> Fails where the mesh cannot be cut, and where a value of the sweep breaks a rule.
   subroutine move_to(self, point, reason, error)
@@ -182,7 +182,7 @@ contains
     end if
   end subroutine follow
 
-  !> Whether a point may be tried from nothing: its answer hangs on nothing but the point, and nothing tells why the path to
+  !> Whether a point may be tried from nothing: its answer hangs on nothing but the point, and nothing shows why the path to
   !> it has ended.
   logical function may_start_anew(self, report) result(may)
     class(bearing_solution_type), intent(in) :: self !! the solution

@@ -43,7 +43,7 @@ module gfb_bearing_writing
     character(len=26) :: name !! of the result
     character(len=16) :: head !! with the unit of the table
     real(wp) :: scale         !! table's number over SI number [1]
-    character(len=16) :: beside = '' !! the vector's other component: its size tells rounding
+    character(len=16) :: beside = '' !! the vector's other component: its size shows rounding
   end type column_type
 
   type(column_type), parameter :: columns(*) = [ &
@@ -312,7 +312,7 @@ contains
     end associate
   end subroutine show_early_end
 
-  !> Warns of a foil that gives way more than displacements that are taken to be small.
+  !> Warns of a foil that deflects more than displacements that are taken to be small.
   subroutine show_large_deflection(log, scene, deflection)
     type(run_log_type), intent(in) :: log
     type(scene_type), intent(in) :: scene
@@ -321,9 +321,9 @@ contains
 
     associate (height => scene%bump_foil%height%value, radius => scene%bearing%radius)
       if (height > 0.0_wp .and. deflection > large_deflection*height) then
-        call log%warning('the foil gives way by '//text(100.0_wp*deflection/height, 3)//' % of the bump height'//small)
+        call log%warning('the foil deflects by '//text(100.0_wp*deflection/height, 3)//' % of the bump height'//small)
       else if (deflection > thin*radius) then
-        call log%warning('the foil gives way by '//text(100.0_wp*deflection/radius, 3)//' % of the radius'//small)
+        call log%warning('the foil deflects by '//text(100.0_wp*deflection/radius, 3)//' % of the radius'//small)
       end if
     end associate
   end subroutine show_large_deflection

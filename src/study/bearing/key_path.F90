@@ -99,7 +99,7 @@ contains
     case (steps_spent)
       report%ending = path_lost('more than '//text(settings%maximum_steps)//' steps')
     case default
-      report%ending = path_lost('no step leads on ('//path%problem//')')
+      report%ending = path_lost('no step converges ('//path%problem//')')
     end select
     report%fraction = path%at
     report%steps = path%steps

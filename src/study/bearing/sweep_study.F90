@@ -121,7 +121,7 @@ contains
     call self%solution%save_stopped(point)
   end subroutine save_stopped
 
-  !> A line a point, with the time that is left; the first point, a cold start, does not tell it.
+  !> A line a point, with the time that is left; the first point, a cold start, does not show it.
   subroutine show_progress(self, point)
     class(sweep_study_type), intent(in) :: self !! the study
     integer, intent(in) :: point !! number of the sweep's value
@@ -152,7 +152,7 @@ contains
   !> Fails when that file is damaged.
   subroutine sweep_round_folds(sweep, reason, error)
     type(bearing_solution_type), target, intent(inout) :: sweep !! left at the last answer
-    type(reason_type), intent(out) :: reason !! why the branch does not lead on
+    type(reason_type), intent(out) :: reason !! why the branch does not continue
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(fold_path_type), allocatable, target :: branch
     type(path_report_type) :: report
@@ -230,7 +230,7 @@ contains
         if (.not. again) call record_fold(sweep, branch)
       end if
     else
-      report%ending = path_lost('no step, however short, leads on along the branch')
+      report%ending = path_lost('no step along the branch converges, however short')
     end if
     gap = sweep%bearing%smallest_gap()
     if (moved .and. gap < sweep%path%touch_down_gap) then

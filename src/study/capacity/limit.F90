@@ -62,7 +62,7 @@ contains
     limit%area = pad_area(scene%bearing)
   end function limit_of
 
-  !> Whether it is the film that tells, and not the asperities.
+  !> Whether it is the film that decides, and not the asperities.
   elemental logical function is_of_film(self) result(is)
     class(limit_type), intent(in) :: self !! the limit
     is = self%kind /= limit_speed
@@ -144,7 +144,7 @@ contains
   end function next_value
 
   !> Where the reserve would be none if it went on as its tangent does: over the logarithm of a load or speed, as the film is next
-  !> to a power of either; the value itself where the slope tells nothing.
+  !> to a power of either; the value itself where the slope says nothing.
   pure real(wp) function aimed_value(self, value, left, slope) result(aim)
     class(limit_type), intent(in) :: self !! the limit
     real(wp), intent(in) :: value !! load [N], speed [rad/s] or tilt [rad]
@@ -200,7 +200,7 @@ contains
     part = norm2(answer%solid_force(:translations))/norm2(point%load(:translations))
   end function contact_part
 
-  !> From where to where a step leads, for the lines that tell how far a long run is.
+  !> From where to where a step leads, for the lines that say how far a long run is.
   pure function course(self, from, to) result(words)
     class(limit_type), intent(in) :: self !! the limit
     real(wp), intent(in) :: from, to !! loads [N], speeds [rad/s] or tilts [rad]
@@ -228,7 +228,7 @@ contains
       select case (self%kind)
       case (limit_load)
         sentence = 'load capacity: '//text(value, 6)//' N, '
-        if (self%area > 0.0_wp) then ! the speed of a ring's tip is what designers tell beside it
+        if (self%area > 0.0_wp) then ! the speed of a ring's tip is what designers quote beside it
           sentence = sentence//text(kilopascals*value/self%area, 4)//' kPa on the pads at '// &
                      text(0.5_wp*self%diameter*bearing%point%speed, 4)//' m/s at the tip'
         else

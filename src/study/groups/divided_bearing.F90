@@ -253,7 +253,7 @@ contains
     end do
   end subroutine gather
 
-  !> Writes all blocks, with this group's last state as that of all, and tells the terminal.
+  !> Writes all blocks, with this group's last state as that of all, and says so on the terminal.
   subroutine write_all(scene, context, pool, memory, study, blocks, status)
     type(scene_type), intent(in) :: scene
     type(run_context_type), intent(in) :: context

@@ -422,7 +422,7 @@ contains
       else
         step = 0.5_wp*taken
         if (step < shortest*scene%periodic%step) then
-          self%ending = 'no orbit leads on from '//value_words(self%map, self%x)//': '//self%map%problem
+          self%ending = 'no orbit was found beyond '//value_words(self%map, self%x)//': '//self%map%problem
           self%lacking = words_at(self%map, self%x, self%bounds(2))
           return
         end if
@@ -469,7 +469,7 @@ contains
     call move_alloc(self%map%orbit, orbit%place)
     gap = self%map%smallest_gap
     done = .true.
-    if (self%map%rubs) then ! differences of the map tell of one side of a contact's stick and slip alone
+    if (self%map%rubs) then ! differences of the map see one side of a contact's stick and slip alone
       allocate (floquet%value(0))
     else
       done = find_monodromy(self%map, self%x, y, self%derivative, floquet)

@@ -50,7 +50,7 @@ contains
                stick => contact%stick_length)
       if (penetration > soft*deflection) then
         stiffer = contact%normal_stiffness*(penetration/(hard*deflection))**contact%exponent
-        call log%warning('contacts give way by up to '//text(penetration*micrometres, 3)// &
+        call log%warning('contacts penetrate by up to '//text(penetration*micrometres, 3)// &
                          ' um, '//text(100.0_wp*penetration/deflection, 3)// &
                          ' % of the deflection of '//text(deflection*micrometres, 4)// &
                          ' um: normal_stiffness = '//text(contact%normal_stiffness)// &
@@ -93,7 +93,7 @@ contains
     round = 10.0_wp**ceiling(log10(number))
   end function power_of_ten
 
-  !> Tells what the bore means for the mesh, and what of the gas is left out or left its range.
+  !> Says what the bore means for the mesh, and what of the gas is left out or left its range.
   subroutine show_film_notes(scene, law, mesh, speed, minimum_gap, pressure, log)
     type(scene_type), intent(in) :: scene !! of a bearing
     type(gas_law_type), intent(in) :: law !! of its gas, which a sweep may have changed

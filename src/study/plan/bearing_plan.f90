@@ -107,7 +107,7 @@ contains
             text(factor*maxval(scene%sweep%values), digits)
   end function spread_text
 
-  !> Chooses width, weighting and unknowns, and tells the log why.
+  !> Chooses width, weighting and unknowns, and logs why.
   subroutine plan_bearing(scene, log, plan)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
@@ -213,7 +213,7 @@ contains
     if (rank_count() == 1 .or. scene%model%foil%has_shell_bumps) return
     if (nodes >= few_nodes*rank_count()) return
     call log%line('ranks: '//text(nodes/rank_count())//' nodes of the film on each, where '// &
-                  text(few_nodes)//' are few: one rank is hardly slower, and --groups computes '// &
+                  text(few_nodes)//' are few: one rank is about as fast, and --groups computes '// &
                   'points of a sweep side by side')
   end subroutine show_few
 

@@ -50,7 +50,7 @@ contains
     end if
   end subroutine choose_reduction
 
-  !> Chooses width and reduction, and tells the log why.
+  !> Chooses width and reduction, and logs why.
   subroutine plan_foil(scene, log, plan)
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
@@ -104,7 +104,7 @@ contains
     if (strip .or. scene%modes%part == part_strip) call show_sizes(scene, plan, log)
   end subroutine plan_foil
 
-  !> Tells of strips with sizes of their own.
+  !> Describes strips with sizes of their own.
   subroutine show_strips(foil, log)
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     type(run_log_type), intent(in) :: log !! where lines go

@@ -255,7 +255,7 @@ contains
     call self%judge()
   end subroutine solve_all
 
-  !> Finds the answer of one member, and tells the log.
+  !> Finds the answer of one member, and logs it.
   subroutine solve_member(self, scene, context, number)
     class(sample_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for

@@ -114,7 +114,7 @@ contains
     type(shaft_drive_type), intent(in) :: drive !! what drives the shaft
     type(march_settings_type), intent(in) :: settings !! how steps are chosen
     logical, intent(in) :: continues !! a restart file has the rest
-    type(run_log_type), intent(in) :: log !! is told what was chosen
+    type(run_log_type), intent(in) :: log !! shows what was chosen
     type(bearing_system_type), target, intent(inout) :: bearing !! at its steady state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(march_type), intent(out) :: march !! ready for its first step
@@ -133,7 +133,7 @@ contains
   !> Where that has an end before, the first step of time is a jump from there.
   subroutine go_to_orbit(scene, log, bearing, newton)
     type(scene_type), intent(in) :: scene !! with `&transient`
-    type(run_log_type), intent(in) :: log !! told where it cannot
+    type(run_log_type), intent(in) :: log !! says where it cannot
     type(bearing_system_type), target, intent(inout) :: bearing !! at the centre
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type) :: first
@@ -243,7 +243,7 @@ contains
           end if
         else
           reason%code = reason_no_answer
-          reason%detail = 'no step of time leads on from '//place_in_time(march)//': '//report%reason
+          reason%detail = 'no time step converges from '//place_in_time(march)//': '//report%reason
         end if
         if (self%ending /= '') exit
         if (stop_agreed()) then

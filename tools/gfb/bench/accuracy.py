@@ -2,7 +2,7 @@
 
 Sixty scenes: rigid bearings and bearings on springs of several eccentricities, speeds, clearances, widths and
 tilts, with a slit or periodic, position or load given, bilinear and biquadratic films, and planar beams. Each names
-a quantity and a target. Told are the share of scenes whose true error is no larger than the estimate, and the
+a quantity and a target. Printed are the share of scenes whose true error is no larger than the estimate, and the
 median of estimate over true error. The answers stand in docs/measured/accuracy_fine_meshes.json; --reference
 computes them anew, each on two meshes, whose difference says how well it is known.
 """

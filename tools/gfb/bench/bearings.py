@@ -38,7 +38,7 @@ meshes; a [finer one](comparisons.md) moves the load of [Heshmat1982]'s journal 
   thrust bearings.
 - *Expected* is the same for all: a factor of 3 either way, because so much is assumed. *As expected* is therefore an agreement of
   orders, no validation; *differs* is a difference beyond it, and the section says what may be behind it.
-- *Varied*: what the answer becomes with one key changed. Where this spreads wider than the difference, the difference tells little.
+- *Varied*: what the answer becomes with one key changed. Where this spreads wider than the difference, the difference says little.
 """
 SAID = """
 ## What the lines say
@@ -47,7 +47,7 @@ SAID = """
   the film at which a test ends move them as much. gfb's loads are below those of good bearings, and above that of a simple one made from what is
   public. The film alone brakes less than a rig measures.
 - **Thrust bearings whose foils are alike everywhere** bear {least:.2f} to {most:.2f} of what is published of good ones, rigid pads more than
-  that: the published loads lie between. How stiff the foils are, and how that is spread over a pad, decides; no abstract tells it. Of
+  that: the published loads lie between. How stiff the foils are, and how that is spread over a pad, decides; no abstract gives it. Of
   [Dykas2008]'s bearing, a modest one, the stiffness was measured, and the load agrees. That proves little: from the least to the largest
   stiffness measured, gfb's load grows several times.
 

@@ -16,7 +16,7 @@
 
 static int count = 0;
 
-/* Told at once: mpiexec may kill a process that has failed before its end is orderly. */
+/* Said at once: mpiexec may kill a process that has failed before its end is orderly. */
 static void tell(void)
 {
   const char *name = getenv("GFB_FAULT_COUNT");

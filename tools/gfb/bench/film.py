@@ -4,7 +4,7 @@ Eccentricity ratio 0.9 along x, 30,000 rpm, slit. First each mesh of a sequence 
 over half and over the whole width, with bilinear elements and with biquadratic ones on as many nodes; the
 error is that of the force W = |(F_x, F_y)| against a biquadratic mesh finer than all of them. The cheapest
 mesh of each order is named for errors of 1e-2 to 1e-5. Then a 416 x 120 film of bilinear elements is solved
-under PETSc's trace, which tells the time of each part.
+under PETSc's trace, which shows the time of each part.
 """
 
 import collections

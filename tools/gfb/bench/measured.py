@@ -102,7 +102,7 @@ HEAT = """
 ## Once more with heat and growth
 
 `tools/bench measured --heat --docs`: the bearing of 352 kPa above, *one strip*, on {rows} rows, at three speeds from the lowest up.
-Conductances are the estimates of [heat.md](../manual/heat.md#which-conductances-do-i-need-and-where-from), which no test of this bearing tells;
+Conductances are the estimates of [heat.md](../manual/heat.md#which-conductances-do-i-need-and-where-from), which no test of this bearing gives;
 ambient air and far places have 293.15 K; viscosity by Sutherland. Nothing was fitted.
 
 {table}

@@ -1,4 +1,4 @@
-/* What PETSc's log (-log_view) does not tell, for tools/bench scaling; preloaded into gfb (LD_PRELOAD).
+/* What PETSc's log (-log_view) does not show, for tools/bench scaling; preloaded into gfb (LD_PRELOAD).
  *
  * Times of the log become CPU times of each process, because PETSc reads its clock by MPI_Wtime. Waiting for another rank
  * is not counted; Open MPI yields where it is idle (mpi_yield_when_idle), and who waits naps. Messages that Fortran

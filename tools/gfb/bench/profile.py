@@ -192,7 +192,7 @@ Two cores with a load of five to seven by other jobs: CPU times of pairs in turn
   before, 15.2 s after the start was made cheaper. Where they go: first answer 52 %, output 20 %, meshes 16 %, judging 10 %. KLU has 12 %, so that factors
   kept from member to member cannot win more than that; 50 a second are out of reach while each starts cold.
 - **A point of a sweep** of such a foundation (101 speeds): 29 ms, 200 million instructions. Newton's four iterations take no new factorization, for factors are kept
-  from point to point already; they are 22 % of it. The one factorization is that of the determinant's sign, which tells folds, and is 32 % with its matrix.
+  from point to point already; they are 22 % of it. The one factorization is that of the determinant's sign, which shows folds, and is 32 % with its matrix.
   The film's fields and their files are 29 %.
 - **209 x 64 elements on two ranks** (53,876 unknowns, waiting not counted, two rounds): 9.5 and 9.1 s to 6.8 s, 1.35 to 1.40. Factorization 5.8 to 4.2 s (1.38),
   assembly 1.65, set-up 1.3, output 0.3 to 0.4 s on the first rank. Were all but the factorization halved, it would be 1.55: what is missing is in MUMPS' last fronts.
@@ -200,6 +200,6 @@ Two cores with a load of five to seven by other jobs: CPU times of pairs in turn
 - **Ranks on busy cores**: the limit cycles pass 266,000 messages and 246,000 sums in 61,000 iterations; 21 CPU s on one rank, 380 on two, where each waited for
   the other to get a core. Since waiting ranks yield, one orbit takes 10 to 13 CPU s for 28 to 53 (one rank: 3.5). On quiet cores this was not measured.
 - **Frequencies of neighbouring speeds** (shells, 105 x 16, 30 frequencies, five speeds 3 % apart): 62 factorizations of vibrations, 12.4 a speed. Tables of neighbours
-  differ by 1.3 % of the largest entry, and four neighbours tell the middle one to 0.6 % only, for contacts change. A basis that is a hundredth off gives 1e-4 at best,
+  differ by 1.3 % of the largest entry, and four neighbours give the middle one to 0.6 % only, for contacts change. A basis that is a hundredth off gives 1e-4 at best,
   where 3e-7 is asked for: the residual would ask for the samples again. Not built.
 """

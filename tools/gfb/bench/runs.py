@@ -111,7 +111,7 @@ def running(process):
 
 
 def last_words(said):
-    """The last line that tells something."""
+    """The last line that says something."""
     lines = [line.strip() for line in said.splitlines() if line.strip()]
     telling = [line for line in lines if re.search(r"not|no |error|memory|fail", line, re.IGNORECASE)]
     return (telling or lines or ["nothing was said"])[-1][:160]

@@ -39,7 +39,7 @@ class Difference:
 
     where: str                # file and name
     words: str                # how it differs
-    relative: float = math.inf  # largest relative difference of its numbers; infinite where none can be told
+    relative: float = math.inf  # largest relative difference of its numbers; infinite where none is known
 
 
 def excluded(name):

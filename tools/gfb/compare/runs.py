@@ -108,7 +108,7 @@ def run(program, task, folder):
 def run_once(program, task, folder, more):
     """One call of the program; its status. Names are the same for every program: results hold some of them."""
     command = command_of(program, f"{task.name}.nml", ".", options=("--quiet", *task.options, *more))
-    # Two threads would add up in another order: here even what the user has set gives way.
+    # Two threads would add up in another order: here even what the user has set is overruled.
     done = call(command, SECONDS, ENVIRONMENT, folder)
     with open(folder/LOG, "a", encoding="utf-8") as log:
         log.write(done.log + done.complaint)

@@ -307,7 +307,7 @@ def tell_open_loop(runs, page, case):
                  ("whether the mesh is converged: twice the elements", DOUBLE_MESH)]
     page.head("What the paper leaves open, and what it does")
     page.say("How far the strips are pressed is not said in numbers: here 25 N a bump. Travel scales with the force "
-             "and the lost work with its square, so one load tells of all. The rule of the paper's Eq. 10 is "
+             "and the lost work with its square, so one load stands for all. The rule of the paper's Eq. 10 is "
              "`'tanh_reset'`; [strip.md](../../manual/strip.md#how-friction-is-solved) says why it is not the default.")
     page.variants("The case file with one thing changed", runs, [(case, {})], variants,
                   [head for *_, head, _ in ANSWERS],

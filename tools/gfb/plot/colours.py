@@ -20,7 +20,7 @@ def round_numbers(count):
 def around_zero(low, high):
     """A scale whose white is zero; what is above has all shades, however far the rest reaches below.
 
-    A free edge that lifts further than loaded foils give way would leave these without colour.
+    A free edge that lifts further than loaded foils deflect would leave these without colour.
     """
     down, up = max(-low, 0.0), max(high, 0.0)
     up = max(up, NARROW*down) or 1.0

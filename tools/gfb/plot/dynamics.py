@@ -86,7 +86,7 @@ def between(frequency, modes):
 
 
 def speed_of(file, row):
-    """The shaft's speed at a row of the history [rad/s]; None where it is not told."""
+    """The shaft's speed at a row of the history [rad/s]; None where it is not given."""
     speed = file["history/speed_rpm"][row] if "history/speed_rpm" in file else \
         number(used_keys(file), "operation", "speed_rpm") if "scene/used" in file else None
     return None if speed is None else float(speed)*numpy.pi/30.0

@@ -33,8 +33,8 @@
       --show bifurcation                  the shaft's centre once a turn, over the speed
 
 Where no columns are named, the ones most asked for are drawn; --list prints the names there are.
-Several strips are told apart by the keys in which they differ. A picture lies beside its data, named after them; CASE.h5 beside
-a film or a foil tells the picture load, speed, model and natural frequencies.
+Several strips are distinguished by the keys in which they differ. A picture lies beside its data, named after them; CASE.h5 beside
+a film or a foil gives the picture load, speed, model and natural frequencies.
 """
 
 import argparse
@@ -262,7 +262,7 @@ def list_columns(file):
 
 
 def swept(file):
-    """Name of what the sweep changes, as the echo of the case tells it; None without a sweep."""
+    """Name of what the sweep changes, as the echo of the case has it; None without a sweep."""
     name = used_keys(file).get(("sweep", "parameter"), ("", True))[0].strip("'")
     return name if name.isidentifier() else None  # one of several keys, or group%key, is in the history under another name
 

@@ -8,9 +8,9 @@ from gfb.results import used_keys
 from gfb.tool import stop
 
 KINDS = ("campbell", "map")
-MODE = ("frequency", "damping_ratio", "shaft_share", "foil_share", "owner", "kind", "sense")  # what is told of each
+MODE = ("frequency", "damping_ratio", "shaft_share", "foil_share", "owner", "kind", "sense")  # what is shown of each
 ROTOR, FOIL, BOTH = 1, 2, 4  # owners of modes
-LEAST = 0.02     # of files that do not tell the owner: a smaller share of the rotor is a mode of film or foil
+LEAST = 0.02     # of files that do not name the owner: a smaller share of the rotor is a mode of film or foil
 DEAD = 0.9       # a larger damping ratio is no vibration
 KIND_WORDS = {1: "cylindrical", 2: "conical"}
 GRAVITY = 9.81   # [m/s2]

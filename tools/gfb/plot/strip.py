@@ -95,7 +95,7 @@ def common_name(paths):
     return words.rstrip("_-. ") if len(words) >= SHORTEST else ""
 
 
-# --- what tells files apart ---
+# --- what distinguishes files ---
 
 def labels(paths, files):
     """What a legend calls each file: the keys that differ and that some file sets, or the case's name."""

@@ -75,7 +75,7 @@ def journals(history):
 # --- orbit ---
 
 def read(file):
-    """What an open file tells of the motion, with the crests around the shaft, and the keys of its echo."""
+    """What an open file has of the motion, with the crests around the shaft, and the keys of its echo."""
     history = {name: data[...] for name, data in file["transient"].items()}
     if "spectrum" in file:
         history["spectrum"] = {name: data[...] for name, data in file["spectrum"].items()}

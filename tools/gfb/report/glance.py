@@ -183,7 +183,7 @@ def rotor(results):
 
 
 def foils(results):
-    """How far the foils give way, and how much of them is idle."""
+    """How far the foils deflect, and how much of them is idle."""
     lifted = results.value("lifted_length")
     idle = "" if lifted is None else f"{100.0*lifted:.3g} % of their length"
     if (results.value("maximum_deflection") or 0.0) > 0.0:

@@ -3,7 +3,7 @@
   tools/report CASE.h5 ...          or CASE.summary, or the name without an ending; several stand side by side
 
 The page has what one asks first (film, load, limits, power, stability, with margins), all results with units and errors, what the case files say and where they differ, what the scene
-needed and why (as gfb --check tells it), pictures, the points of a sweep or the load steps, and where the numbers come
+needed and why (as gfb --check prints it), pictures, the points of a sweep or the load steps, and where the numbers come
 from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be written.
 """
 
@@ -175,7 +175,7 @@ def needs_of(case_file, gfb):
 # --- pictures ---
 
 def thinnest_pad(summary):
-    """The number of the pad with the thinnest film; 0 where the pads are not told apart."""
+    """The number of the pad with the thinnest film; 0 where the pads are not distinguished."""
     gaps = {int(name.rpartition("_")[2]): one["value"] for name, one in summary.items() if re.fullmatch(r"minimum_gap_\d+", name)}
     return min(gaps, key=lambda pad: gaps[pad]) if gaps else 0
 

@@ -37,7 +37,7 @@ def tolerance_of(key, tolerances):
 
 
 def value_of(key, case: Case, swept):
-    """A key's value, of the load its magnitude; None where it is not told."""
+    """A key's value, of the load its magnitude; None where it is not given."""
     name, _, number = key.rstrip(")").partition("(")
     if name in swept:
         return swept[name]

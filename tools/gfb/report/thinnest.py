@@ -1,4 +1,4 @@
-"""Where the film is thinnest: by the fields of its file, for the numbers of a journal's answer do not tell it. The shaft's centre is at -e,
+"""Where the film is thinnest: by the fields of its file, for the numbers of a journal's answer do not have it. The shaft's centre is at -e,
 but the film is thinnest there in a plain, aligned, rigid journal alone: pads, preload, a bore, foils and tilt move the place."""
 
 import dataclasses
