@@ -393,7 +393,8 @@ contains
       '                  topic of --explain, too'//next// &
       '  --explain NAME  a key (or group%key), a group, the name of a result, a value of'//next// &
       '                  a key, or a word of the field; --explain topics lists these;'//next// &
-      '                  gfb help NAME does the same'//next// &
+      '                  of any other word, all whose meanings have it; gfb help NAME'//next// &
+      '                  does the same'//next// &
       '  --keys          table of all keys of a case file'//next// &
       '  --results       table of the names of all results'//next// &
       '  --version       version of the program and its libraries'//next// &

@@ -9,6 +9,7 @@ module gfb_information
   use gfb_text, only: lower_case, nearest_word, did_you_mean, plain_text, join
   use gfb_command_line, only: command_line_type, help_text
   use gfb_field_words, only: field_word_type, find_field_word, field_word_rows, first_word
+  use gfb_meaning_search, only: found_by_meaning
   use gfb_provenance, only: version_text
   use gfb_case_keys, only: case_keys_type
   use gfb_scene, only: scene_type, read_groups
@@ -42,7 +43,8 @@ module gfb_information
 contains
 
   !> All that is known of a word: keys of that name, keys of the group, the result, keys that take
-  !> it as their value, and where the field's word leads.
+  !> it as their value, and where the field's word leads; where it is none of these, all whose
+  !> meanings have it.
   !>
   !> Fails with the names that are near where there is none.
   subroutine explanation(asked, words, error)
@@ -76,6 +78,11 @@ contains
     end do
     words = words//field_words(find_field_word(name))
     if (name == all_topics) words = words//topic_list()
+    if (words == '') then
+      words = found_by_meaning(name, keys)
+      if (words /= '') words = trim(asked)//' is no name of gfb; what has it in its meaning:'// &
+                               next//words
+    end if
     if (words /= '') then
       words = words(:len(words) - 1)
     else

@@ -107,6 +107,8 @@ def check_explanations(checks, folder):
         "--explain=load", folder=folder)[1])
     status, told, wrong = call("--explain", "clearence", folder=folder)
     checks.that("clearence: the nearest name", status == 1 and "did you mean clearance?" in wrong and not told)
+    status, told, wrong = call("--explain", "torque", folder=folder)
+    checks.that("torque: all whose meanings have it", status == 0 and not wrong and "result friction_torque: " in told and "topic  power_loss: " in told)
     checks.that("help is --help", call("help", folder=folder)[1] == call("--help", folder=folder)[1])
     checks.that("--explain alone", "needs a key" in call("--explain", folder=folder)[2])
 

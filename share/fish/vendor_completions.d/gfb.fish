@@ -14,7 +14,7 @@ complete -c gfb -l groups -x -d 'divide the ranks into N groups, and among them 
 complete -c gfb -l name -x -d 'of the table of several cases; default: ensemble'
 complete -c gfb -l template -x -a 'equilibrium fixed_position strip modes linear_dynamics load_capacity lift_off misalignment_allowance transient periodic thrust' -d 'a case file to begin with, all keys with unit, default and meaning; A: equilibrium, fixed_position, strip, modes, linear_dynamics, load_capacity, lift_off, misalignment_allowance, transient, periodic, thrust'
 complete -c gfb -l short -d 'of --template only what the case needs, 25 lines; A may be a topic of --explain, too'
-complete -c gfb -l explain -x -d 'a key (or group%key), a group, the name of a result, a value of a key, or a word of the field; --explain topics lists these; gfb help NAME does the same'
+complete -c gfb -l explain -x -d 'a key (or group%key), a group, the name of a result, a value of a key, or a word of the field; --explain topics lists these; of any other word, all whose meanings have it; gfb help NAME does the same'
 complete -c gfb -l keys -d 'table of all keys of a case file'
 complete -c gfb -l results -d 'table of the names of all results'
 complete -c gfb -l version -d 'version of the program and its libraries'
