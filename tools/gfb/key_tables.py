@@ -28,7 +28,7 @@ PURPOSES = {  # what a group is for, and where more of it stands
     "thermal": "Heat of gas, foils, shaft and sleeve ([heat.md](heat.md)).",
     "strip_load": "What loads a strip ([strip.md](strip.md)).",
     "contact": "Contact and friction of the foils ([strip.md](strip.md)).",
-    "mesh": "Elements of film and foils ([bearing_mesh.md](bearing_mesh.md)).",
+    "mesh": "Elements of film and foils ([bearing_mesh.md](../measured/bearing_mesh.md)).",
     "solver": "Tolerances and limits of the search ([method.md](method.md)).",
     "output": "What is written beside the summary ([results.md](results.md)).",
     "sensitivity": "How results follow the keys ([sensitivity.md](sensitivity.md)).",

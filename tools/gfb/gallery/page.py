@@ -177,7 +177,7 @@ def write_index(folder, names):
         "```", "tools/gallery", "```", "", frame_block(BEARING_FRAME), "",
         "| page | in short |", "| --- | --- |", *rows, "",
         "The main job and what is beside the paper: [bearing.md](../../manual/bearing.md), [strip.md](../../manual/strip.md); mesh "
-        "convergence: [bearing_mesh.md](../../manual/bearing_mesh.md); costs: [bench_bearing.md](../bench_bearing.md), "
+        "convergence: [bearing_mesh.md](../bearing_mesh.md); costs: [bench_bearing.md](../bench_bearing.md), "
         "[bench_strip.md](../bench_strip.md)."]))
 
 

@@ -178,7 +178,7 @@ def tell_open(runs, page):
                   [AS_IT_IS, *open_variants(), *friction_variants(), *mesh_variants()],
                   ["beams: e/C", "films [um]", "shells: e/C", "films [um]"],
                   lambda one: [position_words(position(one)), gaps(one)])
-    page.say("[bearing_mesh.md](../../manual/bearing_mesh.md) has more meshes, with orders and errors.")
+    page.say("[bearing_mesh.md](../bearing_mesh.md) has more meshes, with orders and errors.")
 
 
 def draw_positions(points):

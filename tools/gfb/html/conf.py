@@ -30,7 +30,7 @@ WAY = {
     "Tutorials": ["README", "first_steps", "first_bearing", "first_thrust_bearing", "data_sheet", "first_sweep", "misaligned_shaft",
                   "three_pad_rotor", "flexible_rotor", "first_strip"],
     "Static answers": ["model_and_mesh", "bearing", "pads", "thrust", "cone", "gas_and_bore", "heat", "assembly", "capacity", "branches", "sweeps",
-                       "bearing_mesh", "accuracy"],
+                       "accuracy"],
     "Dynamics": ["coefficients", "stability", "foil_damping", "state_space", "transient", "periodic"],
     "Strips": ["strip", "strips_as_built"],
     "Design and statistics": ["design", "sensitivity", "optimize", "sample"],
