@@ -151,7 +151,7 @@ def draw_fig10(runs, folder):
         "The film at the edges is not thinner than at the midplane at every load.",
         "Friction acts in every point as if it were loaded from rest.",
         "With the top foil fixed at the trailing edge the branch ends in a fold below the smallest load here; "
-        "[bearing.md](../../manual/bearing.md#where-a-branch-ends) shows it, and other branches."])
+        "[bearing_shells.md](../bearing_shells.md#where-a-branch-ends) shows it, and other branches."])
     page.head("What the paper leaves open, and what it does")
     page.say("Which loads were computed, which edge is fixed, and where along the edge the film was measured. Varied "
              "under 100 N:")
