@@ -1,4 +1,4 @@
-"""Tests of the documentation: every link and picture exists, every page is reachable from the index."""
+"""Tests of the documentation: every link and picture exists, every page is reachable from the index, no sentence is too long."""
 
 import os
 import pathlib
@@ -9,6 +9,10 @@ import unittest
 PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 LINK = re.compile(r"\]\(([^)\s]*)\)")
 BLOCK = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
+EQUATION = re.compile(r"^\$\$.*?\$\$$", re.MULTILINE | re.DOTALL)
+ITEM = re.compile(r"\n(?= *(?:[-*]|\d+\.) )|\n\s*\n|\||^#+ .*$", re.MULTILINE)  # a new item, paragraph, cell of a table, and headings
+END = re.compile(r"(?<=[.!?])[\"')*]*\s+(?=[A-Z`*\[$0-9\"(-])")
+MOST_WORDS = 44  # of a sentence
 
 
 def links(page):
@@ -45,6 +49,14 @@ def reachable(start):
     return found
 
 
+def long_sentences(text):
+    """Sentences with too many words; code and what stands between dollars are a word each, targets of links none."""
+    text = EQUATION.sub("\n\n", re.sub(r"^ *```.*?^ *```$", "\n\n", text, flags=re.MULTILINE | re.DOTALL))
+    text = re.sub(r"`[^`]*`|\$[^$\n]*\$", "Code", re.sub(r"\]\([^)]*\)", "]", text))
+    sentences = (sentence for part in ITEM.split(text) for sentence in END.split(part or ""))
+    return [" ".join(sentence.split()) for sentence in sentences if len(re.findall(r"\S*\w\S*", sentence)) > MOST_WORDS]
+
+
 class Links(unittest.TestCase):
     """The checker itself."""
 
@@ -55,6 +67,23 @@ class Links(unittest.TestCase):
                             encoding="utf-8")
             self.assertEqual(broken(page), ["#two", "none.png"])
             self.assertEqual(reachable(page), {page.resolve()})
+
+
+class Sentences(unittest.TestCase):
+    """The counter itself, and every page that people read."""
+
+    def test_a_long_sentence_is_found(self):
+        longest = " ".join(MOST_WORDS*["word"])
+        for text in (f"{longest} more.", f"Short. {longest}\nmore. Short.", f"- item\n- {longest} `a b c`", f"| {longest} more | cell |"):
+            self.assertEqual(len(long_sentences(text)), 1, text)
+        for text in (f"{longest}. More.", f"- {longest}\n- more", f"| {longest} | more |", f"```\n{longest} more\n```\n",
+                     f"{longest[5:]} [`a b c`](where it leads)", f"$$ {longest} more $$\n"):
+            self.assertEqual(long_sentences(text), [], text)
+
+    def test_no_sentence_is_too_long(self):
+        pages = [*PROJECT.glob("*.md"), *(PROJECT/"docs").glob("*.md"), *(PROJECT/"docs/manual").glob("*.md"), *(PROJECT/"docs/developer").glob("*.md")]
+        found = {str(page.relative_to(PROJECT)): long_sentences(page.read_text(encoding="utf-8")) for page in pages if page.name != "CHANGELOG.md"}
+        self.assertEqual({page: sentences for page, sentences in found.items() if sentences}, {})
 
 
 class Documentation(unittest.TestCase):

@@ -45,9 +45,9 @@ contains
     call keys%choice_key('analysis', number, analysis_rows%word, &
                          'position that carries the load, film of a given position, bump '// &
                          'strip under loads, natural modes, small vibrations of the shaft '// &
-                         'about one of the first two; load, speed or tilt up to a limit: '// &
-                         'see `&capacity`; the shaft over time: see `&transient`; orbits '// &
-                         'that close: see `&periodic`')
+                         'about one of the first two. Load, speed or tilt up to a limit: '// &
+                         '`&capacity`; the shaft over time: `&transient`; orbits that '// &
+                         'close: `&periodic`')
     if (is_misplaced(keys)) number = 0
     scene%asked = analysis_unknown
     if (number > 0) scene%asked = analysis_rows(number)
