@@ -108,5 +108,28 @@ class Documentation(unittest.TestCase):
         self.assertEqual([path for path in (PROJECT/"docs").rglob("*.png") if path.resolve() not in shown], [])
 
 
+class Tables(unittest.TestCase):
+    """Tables that say where a claim is held."""
+
+    def rows(self, page, heading):
+        """Links of each row behind a heading: a list of targets a cell."""
+        text = (PROJECT/page).read_text(encoding="utf-8").partition(f"\n## {heading}\n")[2].partition("\n## ")[0]
+        rows = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ") and not line.startswith("| ---")]
+        self.assertGreater(len(rows), 10)
+        return [[LINK.findall(cell) for cell in row] for row in rows[1:]], [row[0] for row in rows[1:]]
+
+    def test_each_claim_names_its_script(self):
+        rows, claims = self.rows("docs/developer/tests.md", "What is verified")
+        self.assertEqual([claim for row, claim in zip(rows, claims) if not any("/tests/" in target for target in row[-1])], [])
+
+    def test_each_equation_has_a_module_a_unit_test_that_uses_it_and_an_outside(self):
+        folder = PROJECT/"docs/manual"
+        rows, names = self.rows("docs/manual/equations.md", "Where each equation is, and what tests it")
+        for (_, modules, units, outside), name in zip(rows, names):
+            used = "".join((folder/unit).read_text(encoding="utf-8") for unit in units)
+            self.assertTrue(modules and outside, name)
+            self.assertEqual([module for module in modules if f"use gfb_{pathlib.PurePath(module).stem}," not in used], [], name)
+
+
 if __name__ == "__main__":
     unittest.main()
