@@ -40,7 +40,7 @@ SENTENCES = (
     ("data_sheet", "found in a second: # N", ("capacity30", "load_capacity", 1)),
     ("misaligned_shaft", "shaft floats under its load: # mrad", ("allowance30", "misalignment_allowance", 1e3)),
     ("first_thrust_bearing", "*power loss*, # W", ("pads", "power_loss", 1)),
-    ("first_thrust_bearing", "# N, 47 kPa at the speed of the tip; and under 150 N a tilt of # mrad", ("carries", "load_capacity", 1), ("tilts", "misalignment_allowance", 1e3)),
+    ("first_thrust_bearing", "It carries # N, 47 kPa at the speed of the tip; under 150 N it allows a tilt of # mrad", ("carries", "load_capacity", 1), ("tilts", "misalignment_allowance", 1e3)),
     ("three_pad_rotor", "**The onset is # rpm.**", ("onset30", "onset_speed_rpm", 1)),
 )
 CHANGES = ("onset30", "clearance30", "clearance20", "clearance16", "preload30", "between30", "beams30", "beams20")  # rows of a table

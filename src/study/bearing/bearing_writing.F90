@@ -307,7 +307,7 @@ contains
     associate (ends => scene%solver%touch_down_gap, clearance => scene%bearing%clearance)
       if (.not. ends > still_bears*clearance .or. gap > nearly*ends .or. scene%shaft_contact%present) return
       call log%warning('touch_down_gap = '//text(ends)//' m in &solver is '//text(100.0_wp*ends/clearance, 3)// &
-                       ' % of the clearance, and has ended the run: thinner films still bear; without the key the run goes on to '// &
+                       ' % of the clearance, and has ended the run: thinner films still carry load; without the key the run goes on to '// &
                        'a hundredth of a per cent')
     end associate
   end subroutine show_early_end

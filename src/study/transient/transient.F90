@@ -147,7 +147,7 @@ contains
                        path_settings_type(solver%maximum_load_steps, max(shortest, solver%smallest_load_step), solver%touch_down_gap), &
                        report)
     end associate
-    if (.not. report%converged()) call log%line('the sleeve jumps to its orbit: no steady film leads there ('//report%reason()//')')
+    if (.not. report%converged()) call log%line('the sleeve jumps to its orbit: no steady film was found on the way ('//report%reason()//')')
   end subroutine go_to_orbit
 
   !> Adds the present film and foils to the series: at the beginning, and by the first step that
