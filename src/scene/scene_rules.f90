@@ -111,7 +111,7 @@ contains
     call keys%rule(heat, 'sleeve_conductance', .not. max(thermal%sleeve_conductance, &
                    thermal%bump_conductance, thermal%cooling_flow* &
                    thermal%channel_sleeve_conductance) > 0.0_wp, 'must be positive where no '// &
-                   'heat reaches the sleeve: it has no temperature else')
+                   'heat reaches the sleeve: else its temperature is undetermined')
 
   contains
 
@@ -211,8 +211,8 @@ contains
   subroutine check_shaft_contact(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: none_at_rest = 'must not be zero at rest: no position is an '// &
-                                   'answer rather than another'
+    character(len=*), parameter :: none_at_rest = 'must not be zero at rest: without a load '// &
+                                   'every position is an equilibrium'
     logical :: rests
 
     associate (model => scene%model, sweep => scene%sweep, analysis => scene%general%analysis)

@@ -505,7 +505,7 @@ contains
       if (answer%decides > 1) call log%line('less damped: '//other_words(speed, answer%mode(1)))
       if (answer%foil_grows) then
         call log%warning('film or foil move by themselves: a mode grows in which the rotor has no share, so this '// &
-                         'equilibrium does not stay, and the rotor''s growth rate means nothing')
+                         'equilibrium is unstable, and the rotor''s growth rate means nothing')
       end if
     end if
   end subroutine show_rotor
