@@ -395,7 +395,8 @@ contains
       '                  a key, or a word of the field; --explain topics lists these;'//next// &
       '                  of any other word, all whose meanings have it; gfb help NAME'//next// &
       '                  does the same'//next// &
-      '  --keys          table of all keys of a case file'//next// &
+      '  --keys          table of all keys of a case file; of CASE.nml with why a key has'// &
+      next//'                  no use in it'//next// &
       '  --results       table of the names of all results'//next// &
       '  --version       version of the program and its libraries'//next// &
       '  --help          this text'//next// &

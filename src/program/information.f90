@@ -12,6 +12,7 @@ module gfb_information
   use gfb_meaning_search, only: found_by_meaning
   use gfb_provenance, only: version_text
   use gfb_case_keys, only: case_keys_type
+  use gfb_run_case, only: read_input
   use gfb_scene, only: scene_type, read_groups
   use gfb_analysis_row, only: analysis_rows, analysis_examples, analysis_example_type, &
                               analysis_equilibrium
@@ -208,6 +209,7 @@ contains
     type(command_line_type), intent(in) :: line !! what was typed
     character(len=:), allocatable, intent(out) :: words !! to be printed
     type(error_type), allocatable, intent(out) :: error !! why there is none
+    character(len=:), allocatable :: text, name !! of a case file
 
     words = ''
     if (line%help) then
@@ -215,7 +217,12 @@ contains
     else if (line%version) then
       words = version_text()
     else if (line%keys) then
-      words = key_table()
+      if (allocated(line%case_file)) then
+        call read_input(line%case_file, text, name, error)
+        if (.not. allocated(error)) words = key_table(text)
+      else
+        words = key_table()
+      end if
     else if (line%results) then
       words = results_text()
     else if (line%template /= '') then

@@ -2,11 +2,11 @@
 !> One case file from reading to results.
 module gfb_run_case
   use petscsys
-  use gfb_case_text, only: read_standard_input
+  use gfb_case_text, only: read_case_text, read_standard_input
   use gfb_errors, only: error_type, fail
   use gfb_petsc_session, only: this_rank
   use gfb_scene, only: scene_type
-  use gfb_scene_reading, only: read_scene, read_scene_text
+  use gfb_scene_reading, only: read_scene_text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
   use gfb_command_line, only: command_line_type
@@ -17,28 +17,30 @@ module gfb_run_case
   use gfb_check_scene, only: check_scene
   implicit none (type)
   private
-  public :: run_case
+  public :: run_case, read_input
 
   character(len=*), parameter :: standard_input = '-' !! as a case file
   character(len=*), parameter :: its_name = 'stdin' !! in messages, and of the results
 
 contains
 
-  !> Reads the scene of a case file, or of the standard input, which the first rank alone has.
+  !> Reads the text of a case file, or of the standard input, which the first rank alone has.
   !>
-  !> Fails with all mistakes, one a line.
-  subroutine read_input(file, strict, scene, error)
+  !> Fails where there is no such file, or it is none of text.
+  subroutine read_input(file, words, name, error)
     character(len=*), intent(in) :: file !! name of the case file, `-` for the standard input
-    logical, intent(in) :: strict !! warnings are mistakes
-    type(scene_type), intent(out) :: scene !! what the case file asks for
+    character(len=:), allocatable, intent(out) :: words !! of the whole file
+    character(len=:), allocatable, intent(out) :: name !! of the file, for messages
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    character(len=:), allocatable :: words, problem
+    character(len=:), allocatable :: problem
     integer :: length(2), ierr
 
+    name = file
     if (file /= standard_input) then
-      call read_scene(file, scene, error, strict)
+      call read_case_text(file, words, error)
       return
     end if
+    name = its_name
     words = ''
     problem = ''
     if (this_rank() == 0) call read_standard_input(words, problem)
@@ -50,11 +52,7 @@ contains
     end if
     call MPI_Bcast(words, length(1), MPI_CHARACTER, 0, PETSC_COMM_WORLD, ierr)
     call MPI_Bcast(problem, length(2), MPI_CHARACTER, 0, PETSC_COMM_WORLD, ierr)
-    if (problem /= '') then
-      call fail(error, its_name//': '//problem)
-    else
-      call read_scene_text(words, its_name, scene, error, strict)
-    end if
+    if (problem /= '') call fail(error, its_name//': '//problem)
   end subroutine read_input
 
   !> Reads, checks, computes, writes.
@@ -68,13 +66,15 @@ contains
     type(scene_type), allocatable :: scene
     type(run_context_type) :: context
     class(study_type), allocatable :: study
+    character(len=:), allocatable :: words, name
     type(quantity_type), allocatable :: summary(:)
     logical :: only_look
 
     converged = .true.
     allocate (scene)
     context = line%context(log)
-    call read_input(line%case_file, line%strict, scene, error)
+    call read_input(line%case_file, words, name, error)
+    if (.not. allocated(error)) call read_scene_text(words, name, scene, error, line%strict)
     only_look = line%check .or. line%shares >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return

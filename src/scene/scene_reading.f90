@@ -489,13 +489,23 @@ contains
     end if
   end function text_with_key
 
-  !> All groups and keys there are, as a Markdown table.
-  function key_table() result(table)
+  !> All groups and keys there are, as a Markdown table; of a case file, be it wrong, with why a key
+  !> has no use in it.
+  function key_table(words) result(table)
+    character(len=*), intent(in), optional :: words !! of the whole case file
     character(len=:), allocatable :: table
     type(case_keys_type) :: keys
+    type(scene_type) :: scene
+    character(len=:), allocatable :: utf8
+    integer :: line, byte
 
-    call read_nothing(keys)
-    table = keys%book%table()
+    if (present(words)) then
+      call as_utf8(words, utf8, line, byte)
+      call read_and_check(utf8, 'case', .false., keys, scene)
+    else
+      call read_nothing(keys)
+    end if
+    table = keys%book%table(present(words))
   end function key_table
 
   !> All keys there are.

@@ -68,6 +68,12 @@ def check_options(checks, folder):
     checks.that("--keys: a table with each group", status == 0 and all(f"{group}" in words for group in (
         "bearing", "gas", "operation", "sweep", "bump_foil", "model", "mesh", "solver", "output")))
     checks.that("--keys: with units", "| m |" in words and "speed_rpm" in words)
+    status, words, wrong = call("--keys", "good.nml", folder=folder)
+    checks.that("--keys of a case: with why a key has no use in it", status == 0 and not wrong and all(
+        re.search(rf"^\| `&{group}` \| `{key}` .* \| {why} ?\|$", words, re.M) for group, key, why in (
+            ("bearing", "clearance", ""), ("bearing", "outer_radius", "needs kind = 'thrust' in &bearing"), ("transient", "turns", "has no use with .*"))))
+    status, words, wrong = call("--keys", "none.nml", folder=folder)
+    checks.that("--keys of no file: says so", status == 1 and "does not exist" in wrong and not words)
     status, words, wrong = call("--results", folder=folder)
     checks.that("--results: a table of names with units", status == 0 and all(part in words for part in (
         "| `minimum_gap` | m | bearing |", "`crest_deflection_<n>`", "| `force_x`, `force_y` | N |")))

@@ -71,6 +71,7 @@ contains
     group%line = self%line_of_group(name)
     if (present(required)) group%required = required
     if (present(optional)) group%is_echoed = group%line > 0 .or. .not. optional
+    if (present(misplaced)) group%misplaced = misplaced
     call self%book%add_group(group)
     self%key%group = name
     if (present(present_in_file)) present_in_file = group%line > 0
@@ -191,6 +192,7 @@ contains
   end subroutine rule
 
   !> The same of those keys of a group that stand in the file: they have no use, or lack something.
+  !> The table of the case's keys says so of all that are named.
   subroutine refuse(self, group, names, broken, words)
     class(case_reader_type), intent(inout) :: self !! the keys being read
     character(len=*), intent(in) :: group
@@ -198,7 +200,7 @@ contains
     logical, intent(in) :: broken !! the rule
     character(len=*), intent(in) :: words !! why they must not be given
     character(len=:), allocatable :: left, key
-    integer :: comma
+    integer :: comma, place
 
     if (.not. broken) return
     left = names//','
@@ -206,6 +208,8 @@ contains
       comma = index(left, ',')
       key = trim(adjustl(left(:comma - 1)))
       left = left(comma + 1:)
+      place = self%book%place_of(group, key)
+      if (place > 0) self%book%keys(place)%why_refused = words
       if (self%meant(group, key)) call self%complain(group, key, words)
     end do
   end subroutine refuse
@@ -359,6 +363,7 @@ contains
     self%key%meaning = meaning
     self%key%numbers = [real(wp) ::]
     if (allocated(self%key%why_useless)) deallocate (self%key%why_useless)
+    if (allocated(self%key%why_refused)) deallocate (self%key%why_refused)
   end subroutine describe
 
   !> Finds a key's values, and notes what the table says of it.

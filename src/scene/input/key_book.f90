@@ -29,6 +29,7 @@ module gfb_key_book
     logical :: is_echoed = .true.  !! an optional group that is absent is not
     logical :: given = .false.     !! a group of the file has been found to be this one
     logical :: misspelt = .false.  !! the file has an unknown name that is nearest to this one
+    character(len=:), allocatable :: misplaced !! why it has no use in this case; empty: it has
   end type group_type
 
   !> A key.
@@ -51,6 +52,7 @@ module gfb_key_book
     logical :: is_echoed = .false.  !! its group is
     integer :: acts_on = acts_on_nothing         !! `acts_on_film`, ...
     character(len=:), allocatable :: why_useless !! in words, where it has no use in this case
+    character(len=:), allocatable :: why_refused !! in words, where it must not be given here
     character(len=:), allocatable :: idle        !! why no answer follows it here; empty: one does
   end type key_type
 
@@ -62,7 +64,7 @@ module gfb_key_book
     logical :: kept = .true. !! what is shown; else the file is read for its values alone
   contains
     procedure :: add_group, add_key, place_of, group_line, look_up_real, check_names, numbers_shown
-    procedure :: echo, table
+    procedure :: echo, table, why_no_use
   end type key_book_type
 
 contains
@@ -292,20 +294,44 @@ contains
   end function key_line
 
   !> All keys as a Markdown table.
-  pure function table(self) result(words)
+  pure function table(self, of_case) result(words)
     class(key_book_type), intent(in) :: self !! the known groups and keys
+    logical, intent(in) :: of_case !! with a column that says why a key has no use in the case read
     character(len=:), allocatable :: words
     integer :: i
 
-    words = '| group | key | type | unit | default | meaning |'//next// &
-            '| --- | --- | --- | --- | --- | --- |'//next
+    words = '| group | key | type | unit | default | meaning |'
+    if (of_case) words = words//' no use here |'
+    words = words//next//'| --- | --- | --- | --- | --- | --- |'
+    if (of_case) words = words//' --- |'
+    words = words//next
     do i = 1, self%count
       associate (key => self%keys(i))
         words = words//'| `&'//trim(key%group)//'` | `'//trim(key%name)//'` | '//key%type_words// &
-                ' | '//key%unit//' | '//key%shown_default//' | '//key%meaning//' |'//next
+                ' | '//key%unit//' | '//key%shown_default//' | '//key%meaning//' |'
+        if (of_case) words = words//' '//self%why_no_use(key)//' |'
+        words = words//next
       end associate
     end do
   end function table
+
+  !> Why a key must not be given in the case read; empty where it may.
+  pure function why_no_use(self, key) result(why)
+    class(key_book_type), intent(in) :: self !! the known groups and keys
+    type(key_type), intent(in) :: key !! one of them
+    character(len=:), allocatable :: why
+    integer :: i
+
+    why = ''
+    i = findloc(self%groups%name == key%group, .true., dim=1)
+    if (allocated(self%groups(i)%misplaced)) why = self%groups(i)%misplaced
+    if (why /= '') return
+    if (allocated(key%why_useless)) then
+      why = key%why_useless
+    else if (allocated(key%why_refused)) then
+      why = key%why_refused
+    end if
+  end function why_no_use
 
   !> Numbers that read back exactly, separated by commas. Nothing where what is shown is not kept.
   pure function numbers_shown(self, values) result(words)
