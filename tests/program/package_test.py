@@ -64,7 +64,7 @@ class DebTest(PackageTest):
                   *(f"share/{path.relative_to(SOURCE/'share')}" for path in (SOURCE/"share").glob("[!m]*/**/*") if path.is_file()),
                   *(f"share/gfb/inputs/{path.name}" for path in (SOURCE/"inputs").glob("*.nml")),
                   *(f"share/doc/gfb/{path.relative_to(SOURCE)}" for path in (SOURCE/"docs").rglob("*.md")),
-                  *(f"lib/python3/dist-packages/gfb/{name}" for name in ("py.typed", "report/page.html", "studio/page.css")),
+                  *(f"lib/python3/dist-packages/gfb/{name}" for name in ("py.typed", "report/look.css", "report/page.html", "report/sketch.html", "studio/page.css")),
                   *(f"lib/python3/dist-packages/gfb/{path.name}" for path in (SOURCE/"tools/gfb").glob("*.py")),
                   *(f"share/doc/gfb/{name}" for name in ("README.md", "LICENSE", "CITATION.cff", "CHANGELOG.md"))}
         self.assertEqual(wanted - listed, set())

@@ -27,6 +27,7 @@ from chromium import BROWSER, Browser  # noqa: E402
 from gfb.case import Case  # noqa: E402
 from gfb.namelist import namelist_value  # noqa: E402
 from gfb.program import find_program  # noqa: E402
+from gfb.report.main import PAGE  # noqa: E402
 from gfb.results import Unreadable  # noqa: E402
 from gfb.studio import pictures  # noqa: E402
 from gfb.studio.checking import check, read_messages  # noqa: E402
@@ -278,13 +279,15 @@ class Places(InFolder):
         self.assertEqual([(self.folder/"small.nml").read_text(encoding="utf-8")], done)
 
     def test_pictures_look_as_those_of_the_report(self):
-        """Colours of curves and the font are those of tools/plot, and pages have the font, too."""
+        """Colours of curves and the font are those of tools/plot; pages have the font, and the colours of verdicts, from one place."""
         layout = pictures.curves([("one", {"a": numpy.arange(3.0), "b": numpy.arange(3.0)}, {"a": "m", "b": "Pa"})], "a", "b")["layout"]
         colours, font = [one["color"] for one in matplotlib.rcParams["axes.prop_cycle"]], matplotlib.rcParams["font.sans-serif"][0]
         self.assertEqual((list(layout["colorway"]), layout["font"]["family"].split(", ")[0]), (colours, font))
         self.assertEqual((layout["xaxis"]["title"]["text"], layout["yaxis"]["title"]["text"]), ("a [um]", "b [kPa]"))
+        self.assertIn(f"body {{ font-family: {font}, ", PAGE.get_template("look.css").render())
         for page in ("report/page.html", "studio/page.css"):
-            self.assertRegex((ROOT/"tools/gfb"/page).read_text(encoding="utf-8"), rf'body {{[^}}]*"{font}", Verdana, sans-serif')
+            text = (ROOT/"tools/gfb"/page).read_text(encoding="utf-8")
+            self.assertEqual(re.findall(r"Verdana|#a00|#17652b|\.sign\.|2b4a6f", text), [], page)
 
     def test_what_stands_beside_a_result_is_no_link(self):
         """Neither the result nor a companion of it is taken from elsewhere, or waited for."""

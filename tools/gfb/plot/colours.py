@@ -6,7 +6,6 @@ from matplotlib import cm, colors, rcParamsDefault, ticker
 BANDS = 200      # colours of a map: so many that none hides a difference
 NARROW = 0.02    # of what is below zero: what is above is spread no further, so that rounding has no colour
 LINES = tuple(one["color"] for one in rcParamsDefault["axes.prop_cycle"])  # of curves, here and in the studio
-FONT = f"{rcParamsDefault['font.sans-serif'][0]}, Verdana, sans-serif"  # of pictures, where the reader's machine has it
 TICKS = 6        # numbers beside a scale, about
 THICKNESS = {"gap"}      # fields whose scale is logarithmic: the loaded zone is a small part of the largest
 SIGNED = {"deflection"}  # fields with colours on both sides of zero

@@ -1,12 +1,10 @@
 """The page's first block: what an engineer asks first, in the units people speak, each with a margin where the case has what it
-is measured against, and a sketch of the bearing with its load, the shaft's centre and its thinnest film."""
+is measured against."""
 
 import math
 
 from gfb.tables import readable_unit
 
-MOST_POINTS = 40  # of an arc of the sketch
-MOST_PADS = 1000  # that are drawn: more are none of gfb
 KELVIN = 273.15
 MOST = 1.0e100  # of a number of a case
 
@@ -65,7 +63,7 @@ def film(results):
     if results.place:
         where = results.place.words()
     elif results.value("minimum_gap_radius") is not None:
-        where = f"at radius {1.0e3*results.value('minimum_gap_radius'):.3g} mm, {math.degrees(results.value('minimum_gap_angle') or 0.0):.0f} deg"
+        where = f"at radius {1.0e3*results.value('minimum_gap_radius'):.3g} mm, {math.degrees(results.value('minimum_gap_angle') or 0.0) % 360.0:.0f} deg"
     elif edge is not None and middle is not None and max(edge, middle) > 1.02*min(edge, middle):
         where = "at the bearing's edge" if edge < middle else "at the midplane"
     rough = results.key("shaft_contact%roughness")
@@ -203,45 +201,3 @@ def heat(results):
     if results.value("running_clearance") is not None:
         cold = results.key("bearing%clearance")
         yield "clearance when it runs", results.words("running_clearance"), f"{1.0e6*cold:.4g} um cold" if cold else "", False
-
-
-# --- the sketch ---
-
-def sketch(summary, case, thinnest=None):
-    """Lines of a picture, 200 x 200, x to the right and y up: pads, load, way of the shaft's centre, and thinnest film where its place is
-    known; None where there is no film."""
-    results = Results(summary, case, thinnest)
-    count = int(results.key("pads%count", 1) or 1)
-    if results.value("minimum_gap") is None or not 0 < count <= MOST_PADS:
-        return None
-    first = results.key("pads%first_leading_edge", results.key("bearing%leading_edge_angle", 0.0)) or 0.0
-    arc = results.key("pads%arc") or 2.0*math.pi/count - (results.key("pads%gap") or 0.0) - (first if count == 1 else 0.0)
-    ring, outer = results.value("minimum_gap_radius") is not None, results.key("bearing%outer_radius")
-    if ring and not outer:
-        return None
-    pads: list[str] = []
-    drawn = {"pads": pads, "shaft": not ring, "load": None, "thinnest": None, "centre": None, "words": "", "ring": ring}
-    inner = 85.0*(results.key("bearing%inner_radius") or 0.5)/outer if ring else 72.0
-    for pad in range(count):
-        begins = first + 2.0*math.pi*pad/count
-        outside = [place(85.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS + 1)]
-        inside = [place(inner if ring else 80.0, begins + arc*i/MOST_POINTS) for i in range(MOST_POINTS, -1, -1)]
-        pads.append(" ".join(f"{x:.1f},{y:.1f}" for x, y in outside + inside))
-    angle = results.value("minimum_gap_angle") if ring else None
-    if thinnest:
-        drawn["thinnest"] = place(85.0*thinnest.across/outer if ring else 76.0, thinnest.angle)
-        drawn["words"] = thinnest.short()
-    elif angle is not None:
-        drawn["thinnest"] = place(85.0*results.value("minimum_gap_radius")/outer, angle)
-    if not ring:
-        moved = direction(results)
-        drawn["centre"] = (*place(0.0, 0.0), *place(68.0, moved[1])) if moved else None
-        both = results.pair("operation%load")
-        if both and math.hypot(*both) > 0.0:
-            drawn["load"] = (*place(8.0, math.atan2(both[1], both[0])), *place(50.0, math.atan2(both[1], both[0])))
-    return drawn
-
-
-def place(radius, angle):
-    """A point of the sketch."""
-    return 100.0 + radius*math.cos(angle), 100.0 - radius*math.sin(angle)

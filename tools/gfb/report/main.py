@@ -19,16 +19,19 @@ import numpy
 from gfb.case import Case
 from gfb.files import fresh
 from gfb.heat import HEATED, balance
+from gfb.look import FONT
 from gfb.program import call, find_program
-from gfb.report.glance import Results, glance, sketch
+from gfb.report.glance import Results, glance
 from gfb.report.sensitivities import sensitivities
+from gfb.report.sketch import sketch
 from gfb.report.thinnest import place_of_thinnest
-from gfb.report.verdict import margins_of, not_computed, plain, sentence, total_power
+from gfb.report.verdict import colour_of, margins_of, not_computed, plain, sentence, total_power
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
 from gfb.tool import command_beside, draw_into_files, parser_of, say, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
+PAGE.globals |= {"font": FONT, "colour_of": colour_of}
 ENDINGS = (".h5", ".summary")
 STOPPED = ("stopped", "out_of_time")  # outcomes of runs that did not come to their end
 SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
@@ -69,6 +72,11 @@ def write_page(runs, output, study=(), heading="", margins=(), verdict=""):
     except OSError as error:
         stop(f"{output}: {error.strerror}", 3)
     return output
+
+
+def svg_of(drawn):
+    """The picture of a sketch; empty where there is none."""
+    return PAGE.get_template("sketch.html").render(drawn=drawn)
 
 
 def title_block(runs, heading=""):

@@ -164,6 +164,12 @@ def stress(results: Results) -> Iterator[Margin]:
 
 # --- the sentence ---
 
+def colour_of(margins: Sequence[Margin]) -> str:
+    """The worst state among margins, whose colour their sentence has; empty where none has a limit."""
+    states = {one.state for one in margins}
+    return "broken" if states & {"broken", "missing"} else "kept" if "kept" in states else ""
+
+
 def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequence[str] = ()) -> str:
     """What limits the bearing, by how much, and for what no limit is known; ended: how a run without an answer did; open_questions: what
     was not computed."""

@@ -9,6 +9,7 @@ from nicegui import run as workers
 
 from gfb.case import Case, CaseError
 from gfb.namelist import namelist_value
+from gfb.report.main import PAGE
 from gfb.studio.checking import check
 from gfb.studio.form import Form
 from gfb.studio.keys import read_keys
@@ -60,6 +61,7 @@ class Tab:
         """All of the page."""
         ui.add_head_html(LEFT)
         ui.colors(primary="#2b4a6f")
+        ui.add_css(PAGE.get_template("look.css").render())
         ui.add_css(pathlib.Path(__file__).with_name("page.css"))
         with ui.header().classes("top"):
             ui.label("gfb studio").classes("brand")

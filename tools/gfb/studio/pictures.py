@@ -7,7 +7,8 @@ import pathlib
 import numpy
 
 from gfb.files import kept_within
-from gfb.plot.colours import FONT, LINES
+from gfb.look import FONT
+from gfb.plot.colours import LINES
 from gfb.plot.foil import is_foil, names, round_scale, shape_of
 from gfb.plot.ring import TRAVEL
 from gfb.plot.rolled import drawn_larger, paths_of, read_shaft, read_surface

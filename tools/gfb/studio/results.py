@@ -3,8 +3,8 @@
 from nicegui import run as workers
 from nicegui import ui
 
-from gfb.report.main import PAGE, answer_rows, key_rows
-from gfb.report.verdict import total_power
+from gfb.report.main import answer_rows, key_rows, svg_of
+from gfb.report.verdict import colour_of, total_power
 from gfb.results import Unreadable
 from gfb.studio import pictures
 from gfb.studio.runs import Refused
@@ -68,8 +68,8 @@ class ResultsView:
             if together:
                 ui.label(together)
             with ui.element("div").classes("beside"):
-                for number, run in enumerate(runs):
-                    show_answer(run, number)
+                for run in runs:
+                    show_answer(run)
             self.show_pictures(runs)
             if len(runs) > 1:
                 ui.label("What of the cases differs").classes("brand")
@@ -118,13 +118,12 @@ class ResultsView:
                         ui.label("cannot be drawn of this result")
 
 
-def show_answer(run, number):
+def show_answer(run):
     """What one asks first."""
     with ui.card().classes("result"):
         ui.label(run["name"]).classes("brand")
         ui.label(str(run["title"]))
-        broken = not run["converged"] or any(one.is_broken for one in run["margins"])
-        ui.label(run["verdict"]).classes("sentence" + " bad"*broken)
+        ui.label(run["verdict"]).classes(f"sentence {colour_of(run['margins']) if run['converged'] else 'broken'}")
         if run["converged"]:
             if run["rows"]:
                 ui.label("Of the last point or load step.")
@@ -135,7 +134,7 @@ def show_answer(run, number):
                     ui.label(one.sign).classes(f"sign {one.state}")
         with ui.element("div").classes("glance"):
             if run["sketch"]:
-                ui.html(PAGE.get_template("sketch.html").render(run=run, number=number), sanitize=False).classes("sketch")
+                ui.html(svg_of(run["sketch"]), sanitize=False)
             with ui.element("div").classes("answers"):
                 for words, value, verdict, is_bad in run["glance"]:
                     ui.label(words)

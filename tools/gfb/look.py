@@ -1,0 +1,3 @@
+"""What pictures and pages share of their look; colours of pages stand in report/look.css, those of maps and curves in plot/colours.py."""
+
+FONT = "DejaVu Sans, Verdana, sans-serif"  # where the reader's machine has it
