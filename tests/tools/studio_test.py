@@ -27,10 +27,10 @@ from chromium import BROWSER, Browser  # noqa: E402
 from gfb.case import Case  # noqa: E402
 from gfb.namelist import namelist_value  # noqa: E402
 from gfb.program import find_program  # noqa: E402
-from gfb.report.main import PAGE  # noqa: E402
+from gfb.report.main import PAGE, differences  # noqa: E402
 from gfb.results import Unreadable  # noqa: E402
 from gfb.studio import pictures  # noqa: E402
-from gfb.studio.checking import check, read_messages  # noqa: E402
+from gfb.studio.checking import check, read_messages, without_use  # noqa: E402
 from gfb.studio.keys import read_keys  # noqa: E402
 from gfb.studio.runs import Folder, Refused, Run, Runs  # noqa: E402
 from gfb.studio.text import with_value, without_group  # noqa: E402
@@ -106,6 +106,17 @@ class Values(unittest.TestCase):
         self.assertEqual(bearing["clearance"].shown(31.8e-6), "31.8 um")
         self.assertEqual(bearing["leading_edge_angle"].shown(math.pi/4.0), "45 deg")
         self.assertEqual(self.keys["gas"]["ambient_pressure"].shown(101350.0), "101.35 kPa")
+
+    def test_other_units_are_known_or_named(self):
+        """mil and inch are exact and never shown; of a unit that is none of the key those that are stand in the message."""
+        radius, clearance, load = self.keys["bearing"]["radius"], self.keys["bearing"]["clearance"], self.keys["operation"]["load"]
+        self.assertEqual((clearance.typed("1.25 mil"), radius.typed("0.75 inch"), radius.typed("0.75in"), self.keys["gas"]["ambient_pressure"].typed("1.5 bar")),
+                         (31.75e-6, 19.05e-3, 19.05e-3, 150000.0))
+        self.assertEqual((clearance.shown(1.25*25.4e-6), radius.shown(0.75*25.4e-3)), ("31.75 um", "19.05 mm"))
+        for key, words, said in ((radius, "30 mils", "30 mils: 'mils' is no unit of this key; it knows mm, um, m, mil, inch and in"),
+                                 (load, "-100, 2 kgf", "2 kgf: 'kgf' is no unit of this key; it knows N"), (self.keys["pads"]["preload"], "3 mm", "3 mm: this key is a number without a unit"),
+                                 (radius, "abc", ""), (radius, "30 mil", ""), (self.keys["scene"]["title"], "30 mils", ""), (self.keys["model"]["foil"], "30 mils", "")):
+            self.assertEqual(key.unknown_unit(key.typed(words)), said, words)
 
     def test_what_is_no_value_is_the_programs_to_refuse(self):
         radius = self.keys["bearing"]["radius"]
@@ -191,6 +202,15 @@ class Messages(unittest.TestCase):
 
 
 class Checked(InFolder):
+    def test_what_has_no_use_is_the_programs_to_say(self):
+        found = asyncio.run(without_use(find_program(), SMALL))
+        self.assertEqual(found["bearing", "outer_radius"], "needs kind = 'thrust' in &bearing")
+        self.assertEqual(found["transient", "turns"], "has no use with analysis = 'equilibrium'")
+        self.assertNotIn(("bearing", "radius"), found)
+        ring = asyncio.run(without_use(find_program(), SMALL.replace("&bearing", "&bearing kind = 'thrust'")))  # which has mistakes
+        self.assertEqual([("bearing", one) in ring for one in ("radius", "outer_radius")], [True, False])
+        self.assertEqual(asyncio.run(without_use("/bin/true", SMALL)), {})
+
     def test_what_a_library_says_beside_it_is_no_mistake(self):
         path = self.folder/"talking"
         path.write_text(f"#!/bin/sh\necho 'no /sys here' >&2\nexec {find_program()} \"$@\"\n", encoding="utf-8")
@@ -288,6 +308,47 @@ class Places(InFolder):
         for page in ("report/page.html", "studio/page.css"):
             text = (ROOT/"tools/gfb"/page).read_text(encoding="utf-8")
             self.assertEqual(re.findall(r"Verdana|#a00|#17652b|\.sign\.|2b4a6f", text), [], page)
+
+    def test_films_go_from_0_to_360_degrees_with_the_scale_of_the_report(self):
+        """A pad over 360 degrees is in two, with its value there; the gap has a logarithmic scale, one for all that stand side by side."""
+        theta = numpy.radians(numpy.linspace(300.0, 420.0, 7))
+        values = numpy.degrees(theta)[:, None]*numpy.ones(3)
+        parts = pictures.within_a_turn(theta, values)
+        self.assertEqual([(round(float(numpy.degrees(place[0])), 9), round(float(numpy.degrees(place[-1])), 9)) for place, _ in parts], [(300.0, 360.0), (0.0, 60.0)])
+        numpy.testing.assert_allclose([*parts[0][1][-1], *parts[1][1][0], *parts[1][1][-1]], [360.0]*6 + [420.0]*3)
+        [(place, _)] = pictures.within_a_turn(numpy.radians(numpy.linspace(-90.0, -10.0, 5)), values[:5])
+        numpy.testing.assert_allclose(numpy.degrees(place[[0, -1]]), [270.0, 350.0])
+        [(place, _)] = pictures.within_a_turn(numpy.radians(numpy.linspace(0.0, 360.0, 5)), values[:5])
+        numpy.testing.assert_allclose(numpy.degrees(place[[0, -1]]), [0.0, 360.0])
+        runs = [self.folder/f"run{number}" for number in range(2)]
+        for run, clearance in zip(runs, ("20.0e-6", "40.0e-6")):
+            run.mkdir()
+            (run/"small.nml").write_text(SMALL.replace("20.0e-6", clearance) + "&pads count = 3 arc = 1.9 first_leading_edge = 2.0 /\n", encoding="utf-8")
+            subprocess.run([find_program(), "--quiet", "--output", run, run/"small.nml"], check=True, stdout=subprocess.DEVNULL)
+        figures = [pictures.draw(run/"small", "film: gap") for run in runs]
+        pictures.same_colours(figures)
+        x = numpy.concatenate([one["x"].ravel() for one in figures[0]["data"]])
+        self.assertTrue(0.0 <= x.min() < 10.0 and 350.0 < x.max() <= 360.0)
+        heights = [float(pick(one["z"])) for figure in figures for one in figure["data"] for pick in (numpy.min, numpy.max)]
+        low, high = min(heights), max(heights)
+        for figure in figures:
+            self.assertEqual(figure["layout"]["scene"]["zaxis"]["type"], "log")
+            numpy.testing.assert_allclose(figure["layout"]["scene"]["zaxis"]["range"], numpy.log10([low, high]))
+            for one in figure["data"]:
+                numpy.testing.assert_allclose(one["surfacecolor"], numpy.log(one["z"]/low)/math.log(high/low), atol=1.0e-5)
+                numpy.testing.assert_allclose(one["colorbar"]["tickvals"], [math.log(float(tick)/low)/math.log(high/low) for tick in one["colorbar"]["ticktext"]], atol=1.0e-5)
+        pressure = [pictures.draw(run/"small", "film: pressure") for run in runs]
+        pictures.same_colours(pressure)
+        self.assertNotIn("type", pressure[0]["layout"]["scene"]["zaxis"])
+
+    def test_differences_of_two_answers(self):
+        """In the units that people read; what is rounding is none."""
+        def answer(**values):
+            return {"summary": {name: {"value": value, "unit": unit, "meaning": name} for name, (value, unit) in values.items()}}
+        rows = differences(answer(gap=(4.0e-6, "m"), force=(20.0, "N"), other=(1.0e-15, "N"), words=("a", ""), gone=(1.0, "1"), none=(math.nan, "1"), power=(0.0, "W")),
+                                   answer(gap=(5.0e-6, "m"), force=(20.0 + 1.0e-12, "N"), other=(2.0e-15, "N"), words=("b", ""), none=(1.0, "1"), power=(3.0, "W")))
+        self.assertEqual([(row["name"], row["first"], row["second"], row["more"], row["percent"]) for row in rows],
+                         [("gap [um]", 4.0, 5.0, 1.0, 25.0), ("power [W]", 0.0, 3.0, 3.0, "")])
 
     def test_what_stands_beside_a_result_is_no_link(self):
         """Neither the result nor a companion of it is taken from elsewhere, or waited for."""
@@ -624,6 +685,82 @@ class BrowserTest(Served):
         page.wait("document.documentElement.scrollWidth <= 420")
         page.press("case", "[role=tab]")
         page.wait("document.documentElement.scrollWidth <= 420")
+        self.assert_quiet(page)
+
+    def clipped(self, page):
+        """What reaches over the right edge of the window, without what scrolls in the editor."""
+        return page.run("Array.from(document.querySelectorAll('body *')).filter((one) => one.offsetParent && !one.closest('.cm-editor, svg')"
+                        " && one.getBoundingClientRect().right > innerWidth + 1).map((one) => one.tagName + ' ' + one.className + ' ' + one.getBoundingClientRect().right)")
+
+    def test_a_sketch_follows_and_keys_without_use_are_folded(self):
+        page = self.open("small.nml")
+        pad = "document.querySelector('.beside-form .pad')?.getAttribute('d')"
+        shown = "document.querySelector('.beside-form').textContent"
+        page.wait(f"{shown}.includes('clearance 20 um x 100')")
+        before = page.run(pad)
+        page.type("[data-key='bearing%clearance']", "1.25 mil")
+        page.wait(f"{shown}.includes('clearance 31.75 um x 100')")
+        after = page.run(pad)
+        self.assertNotEqual(after, before)
+        page.type("[data-key='bearing%clearance']", "30 mils")
+        page.wait("document.querySelector('.said').innerText.includes(\"30 mils: 'mils' is no unit of this key; it knows mm, um, m, mil, inch and in\")")
+        self.assertEqual(page.run(pad), after, "half a number leaves the last sketch")
+        page.type("[data-key='bearing%clearance']", "20 um")
+        page.wait("document.querySelector('.verdict').innerText.includes('in order')")
+        # The group in which the cursor stands is marked.
+        marked = "Array.from(document.querySelectorAll('.beside-form path')).filter((one) => getComputedStyle(one).strokeWidth === '2.2px').map((one) => one.classList[0]).join(' ')"
+        page.type("[data-key='gas%viscosity']", "2.1e-5")
+        page.wait(f"{marked} === 'gas'")
+        page.type("[data-key='operation%speed_rpm']", "21000")
+        page.wait(f"{marked}.includes('load')")
+        # What a journal cannot use is folded away, and found.
+        seen = "!!document.querySelector(\"[data-key='bearing%outer_radius']\")?.offsetParent"
+        page.wait("/show the \\d+ keys that have no use/.test(document.body.innerText)")
+        self.assertFalse(page.run(seen))
+        self.assertFalse(page.run("!!document.querySelector(\"[data-group='transient']\")?.offsetParent"))
+        page.press("show the", ".q-toggle")
+        page.wait(seen)
+        page.wait("document.body.innerText.includes(\"No use here: needs kind = 'thrust' in &bearing. outer radius\")")
+        page.press("show the", ".q-toggle")
+        page.wait(f"!({seen})")
+        page.type("[aria-label='find a key']", "outer_radius")
+        page.wait(seen)
+        page.resize(400, 900)
+        page.wait("document.documentElement.scrollWidth <= 400")
+        self.assertEqual(self.clipped(page), [])
+        page.resize(1300, 900)
+        # Templates are pictures.
+        page.press("new", "button")
+        page.wait("document.querySelectorAll('.template svg').length >= 11")
+        page.press("thrust", ".template")
+        page.press("replace it", "button")
+        page.wait("document.querySelector('.cm-content').innerText.includes(\"kind = 'thrust'\")")
+        page.wait("document.querySelectorAll('.beside-form .ramp').length === 7")
+        self.assert_quiet(page)
+
+    def test_results_open_on_the_last_run_and_two_are_compared(self):
+        page = self.open("small.nml")
+        for number in (1, 2):
+            if number == 2:
+                page.press("case", "[role=tab]")
+                page.type("[data-key='bearing%clearance']", "25 um")
+                page.wait("document.querySelector('.cm-content').innerText.includes('2.5e-05')")
+            page.press("run", "button")
+            page.wait(f"Array.from(document.querySelectorAll('.state')).filter((one) => one.innerText.includes('has an answer')).length === {number}")
+            page.press("results", "[role=tab]")
+            page.wait(f"document.querySelectorAll('.answers').length === {number}")
+        rows = "Array.from(document.querySelectorAll('.differences tbody tr')).map((one) => Array.from(one.cells).map((cell) => cell.innerText))"
+        page.wait(f"{rows}.length > 5")
+        [row] = [row for row in page.run(rows) if row[0] == "minimum_gap [um]"]
+        gaps = [1.0e6*float(re.search(r"minimum_gap = (\S+)", (self.folder/f"small.run{number}/small.summary").read_text(encoding="utf-8"))[1]) for number in (1, 2)]
+        for shown, value in zip(row[1:5], (*gaps, gaps[1] - gaps[0], 100.0*(gaps[1]/gaps[0] - 1.0))):
+            self.assertAlmostEqual(float(shown), value, delta=1.0e-3*abs(value))
+        page.wait("document.querySelectorAll('.js-plotly-plot canvas').length >= 2")
+        page.resize(400, 900)
+        page.wait("document.documentElement.scrollWidth <= 400")
+        with contextlib.suppress(AssertionError):
+            wait(lambda: not self.clipped(page), 30)  # pictures take their new size
+        self.assertEqual(self.clipped(page), [])
         self.assert_quiet(page)
 
     def test_a_run_is_stopped_and_goes_with_a_killed_server(self):

@@ -7,6 +7,8 @@ READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad"
             "N/m": ("MN/m", 1.0e-6), "W/m2": ("kW/m2", 1.0e-3)}
 # The same for units in which drawings and data sheets have what a case file has in SI units, before those that are read.
 TYPED = {"m": ("mm", 1.0e3), "rad": ("deg", 180.0/math.pi), "Pa": ("GPa", 1.0e-9)}
+# What may be typed, too, and is never shown: SI unit: {unit: what it is in SI, as a decimal number, which is exact}.
+ALSO_TYPED = {"m": {"mil": "25.4e-6", "inch": "25.4e-3", "in": "25.4e-3"}, "Pa": {"MPa": "1e6", "bar": "1e5"}}
 
 
 def readable_unit(unit, of=""):
@@ -21,7 +23,7 @@ def readable(values, unit, of=""):
 
 
 def units_of(unit):
-    """{unit: what to multiply SI with} of all units in which a number may be typed, its own last."""
+    """{unit: what to multiply SI with} of all units in which a number is shown where it is typed, its own last."""
     return dict([*(one[unit] for one in (TYPED, READABLE) if unit in one), (unit, 1.0)])
 
 

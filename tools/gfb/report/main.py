@@ -8,6 +8,7 @@ from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be wr
 """
 
 import base64
+import math
 import pathlib
 import re
 import subprocess
@@ -27,6 +28,7 @@ from gfb.report.sketch import sketch
 from gfb.report.thinnest import place_of_thinnest
 from gfb.report.verdict import colour_of, margins_of, not_computed, plain, sentence, total_power
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
+from gfb.tables import readable_unit
 from gfb.tool import command_beside, draw_into_files, parser_of, say, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
@@ -38,6 +40,7 @@ SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bu
 SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency", "campbell": "the rotor's modes over the speed"}
 SECONDS = 300     # no picture takes that long
 MOST_ROWS = 400   # of a table of points
+SAME = 1.0e-9     # of the largest result of a unit: numbers that differ less are one
 
 
 def main():
@@ -274,6 +277,28 @@ def key_rows(runs):
         values = [words_of(run["used"][name]) if name in run["used"] else "" for run in runs]
         rows.append({"name": name, "values": values, "differs": len(set(values)) > 1})
     return rows
+
+
+def differences(first, second):
+    """Rows of results that are numbers in both answers and differ."""
+    both = {name: (one, one["value"], second["summary"].get(name, {}).get("value")) for name, one in first["summary"].items()}
+    both = {name: row for name, row in both.items() if all(isinstance(value, float) and math.isfinite(value) for value in row[1:])}
+    largest: dict[str, float] = {}  # of each unit: what is far below it is rounding
+    for one, *values in both.values():
+        largest[one["unit"]] = max(largest.get(one["unit"], 0.0), *map(abs, values))
+    rows = []
+    for name, (one, value, other) in both.items():
+        if abs(other - value) > SAME*largest[one["unit"]]:
+            unit, scale = readable_unit(one["unit"], name)
+            before, after = scale*value, scale*other
+            rows.append({"name": name + f" [{unit}]"*(unit != "1"), "first": rounded(before), "second": rounded(after), "more": rounded(after - before),
+                         "percent": rounded(100.0*(after/before - 1.0)) if before else "", "meaning": one["meaning"]})
+    return rows
+
+
+def rounded(value):
+    """A number with the digits that a table has; it sorts as one."""
+    return float(f"{value:.4g}")
 
 
 def words_of(value):

@@ -4,6 +4,8 @@ import asyncio
 import dataclasses
 import re
 
+from gfb.program import table_rows
+
 MESSAGE = re.compile(r"(?P<warning>warning: )?stdin:(?:(?P<line>\d+):)? (?:&(?P<group>\w+): )?(?P<words>.*)")
 KEY = re.compile(r"(?:.* )?key '(\w+)'|(\w+)(?:\(\d+\))?(?: = |: )")
 SECONDS = 60  # no check takes that long
@@ -51,20 +53,36 @@ def read_messages(said):
     return tuple(messages)
 
 
-async def check(gfb, text):
-    """Has the program check a text; in the root, where nobody else leaves a file."""
-    process = await asyncio.create_subprocess_exec(gfb, "--check", "-", stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
+async def ask(gfb, option, text):
+    """What the program says of a text: status, output, complaint; in the root, where nobody else leaves a file."""
+    process = await asyncio.create_subprocess_exec(gfb, option, "-", stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
                                                    stderr=asyncio.subprocess.PIPE, cwd="/")
     try:
         said, complaint = await asyncio.wait_for(process.communicate(text.encode()), SECONDS)
-    except asyncio.TimeoutError:
-        return Judged((Message(f"the check took more than {SECONDS} s"),), "")
     finally:
         if process.returncode is None:
             process.kill()
-    messages = read_messages(complaint.decode("utf-8", "replace"))
-    if process.returncode == 0:
+    return process.returncode, said.decode("utf-8", "replace"), complaint.decode("utf-8", "replace")
+
+
+async def check(gfb, text):
+    """Has the program check a text."""
+    try:
+        status, said, complaint = await ask(gfb, "--check", text)
+    except asyncio.TimeoutError:
+        return Judged((Message(f"the check took more than {SECONDS} s"),), "")
+    messages = read_messages(complaint)
+    if status == 0:
         messages = tuple(one for one in messages if one.is_warning)  # a library may complain of the machine
-    if process.returncode and all(one.is_warning for one in messages):
-        messages += (Message(f"gfb --check ended with status {process.returncode}"),)
-    return Judged(messages, said.decode("utf-8", "replace").strip() if process.returncode == 0 else "")
+    if status and all(one.is_warning for one in messages):
+        messages += (Message(f"gfb --check ended with status {status}"),)
+    return Judged(messages, said.strip() if status == 0 else "")
+
+
+async def without_use(gfb, text):
+    """{(group, key): why it has no use} in the case of a text, as the program says; empty where it says nothing."""
+    try:
+        _, said, _ = await ask(gfb, "--keys", text)
+    except asyncio.TimeoutError:
+        return {}
+    return {(group.strip("`&"), name.strip("`")): why for group, name, *_, why in table_rows(said) if why}

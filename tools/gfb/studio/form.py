@@ -1,12 +1,15 @@
-"""The form: a field for every key that the program knows, in its groups."""
+"""The form: a field for every key that the program knows, in its groups; what has no use in the case is folded away."""
+
+import dataclasses
 
 from nicegui import ui
 
 from gfb.studio.checking import Message
-from gfb.tables import READABLE, TYPED
+from gfb.tables import ALSO_TYPED, READABLE, TYPED
 
 GIVEN, NOT_GIVEN = "", "not in the case"
 WAIT = 400  # ms without a key stroke until a field is taken over
+LONGEST = 22  # letters of a default that its field has room for; longer ones stand below
 
 
 class Field:
@@ -15,6 +18,7 @@ class Field:
     def __init__(self, key, value, change):
         self.key, self.value, self.change = key, value, change
         self.messages: tuple[Message, ...] = ()
+        self.no_use = ""
         if key.choices:
             self.input = ui.select(self.options(value), label=key.name, value=key.shown(value), on_change=self.typed)
         else:
@@ -22,7 +26,7 @@ class Field:
                                   on_change=self.typed).props(f"debounce={WAIT}").on("blur", self.tidy)
         self.input.classes("field").mark(f"{key.group}%{key.name}")
         self.input.props("dense outlined stack-label hide-bottom-space")
-        self.input.props["placeholder"] = self.default
+        self.input.props["placeholder"] = self.default if len(self.default) <= LONGEST else "default: see below"
         self.input.props["data-key"] = f"{key.group}%{key.name}"
         self.show_messages(())
         self.mark_unset()
@@ -70,11 +74,23 @@ class Field:
         """What the program says of it, otherwise what it means."""
         self.messages = messages
         wrong = [one.words for one in messages if not one.is_warning]
-        self.input.props["hint"] = "; ".join(f"warning: {one.words}" for one in messages) if messages and not wrong else self.key.meaning.replace("`", "")
+        self.input.props["hint"] = "; ".join(f"warning: {one.words}" for one in messages) if messages and not wrong else self.remark()
         self.input.props["error"] = bool(wrong)
         self.input.props["error-message"] = "; ".join(wrong)
         self.input.classes(add="warned-field" if messages and not wrong else None,
                            remove=None if messages and not wrong else "warned-field")
+
+
+    def remark(self):
+        """What it means, where it has no room for it its default, and why it has no use."""
+        words = [f"No use here: {self.no_use}"]*bool(self.no_use) + [self.key.meaning.replace("`", "")]
+        return ". ".join(words + [f"Default: {self.default}"]*(len(self.default) > LONGEST))
+
+    def show_use(self, why):
+        """Why it has no use in the case; empty where it has one."""
+        if why != self.no_use:
+            self.no_use = why
+            self.show_messages(self.messages)
 
 
 class Group:
@@ -83,6 +99,7 @@ class Group:
     def __init__(self, name, keys, change, leave_out):
         self.name, self.keys, self.change, self.leave_out = name, keys, change, leave_out
         self.fields, self.values, self.is_given = {}, {}, False
+        self.no_use, self.words_found, self.shows_all = {}, [], False
         self.messages: tuple[Message, ...] = ()
         self.box = ui.expansion(f"&{name}", caption=NOT_GIVEN, on_value_change=self.opened).classes("group").mark(f"group {name}")
         self.box.props["data-group"] = name
@@ -97,6 +114,7 @@ class Group:
                 self.out = ui.button(f"leave &{self.name} out", on_click=lambda: self.leave_out(self.name)).props("flat dense no-caps")
                 self.out.set_visibility(self.is_given)
             self.show_messages(self.messages)
+            self.fold()
 
     def show(self, values):
         """The values of the case; None: it has not got this group."""
@@ -109,6 +127,7 @@ class Group:
         if begins:
             self.box.open()
         self.caption()
+        self.fold()
 
     def caption(self):
         """What stands beside its name."""
@@ -121,6 +140,7 @@ class Group:
         """Those of this group: at their fields, otherwise above them."""
         self.messages = tuple(messages)
         self.caption()
+        self.fold()
         if not self.fields:
             return
         for name, field in self.fields.items():
@@ -134,13 +154,26 @@ class Group:
                     ui.label(one.words).classes("warning" if one.is_warning else "mistake")
 
     def look_for(self, words):
-        """Shows the fields that are looked for, all where nothing is."""
-        found = [name for name, key in self.keys.items() if all(one in f"{self.name} {name} {key.meaning}".lower() for one in words)]
-        self.box.set_visibility(bool(found))
-        if words and found:
+        """Shows the fields that are looked for."""
+        self.words_found = words
+        if self.fold() and words:
             self.box.open()
+
+    def is_folded(self, name):
+        """Whether a key has no use, is not there, and nobody asks for it."""
+        return not self.shows_all and name in self.no_use and name not in self.values and all(one.key != name for one in self.messages)
+
+    def fold(self):
+        """Shows what is looked for, and otherwise what has a use; whether that is anything."""
+        if self.words_found:
+            seen = [name for name, key in self.keys.items() if all(one in f"{self.name} {name} {key.meaning}".lower() for one in self.words_found)]
+        else:
+            seen = [name for name in self.keys if not self.is_folded(name)]
+        self.box.set_visibility(bool(seen) or self.is_given and not self.words_found)
         for name, field in self.fields.items():
-            field.input.set_visibility(name in found)
+            field.input.set_visibility(name in seen)
+            field.show_use(self.no_use.get(name, ""))
+        return bool(seen)
 
 
 class Form:
@@ -153,8 +186,10 @@ class Form:
         """Makes it."""
         ui.input("find a key", on_change=lambda event: self.look_for(event.value or "")).props(f"clearable dense debounce={WAIT}") \
             .classes("wide").mark("find")
-        others = ", ".join(unit for table in (TYPED, READABLE) for unit, _ in table.values())
-        ui.label(f"A number without a unit is in that of its label; also {others} may be typed.").classes("remark")
+        others = [*(unit for table in (TYPED, READABLE) for unit, _ in table.values()), *(unit for units in ALSO_TYPED.values() for unit in units)]
+        ui.label(f"A number without a unit is in that of its label; also {', '.join(others)} may be typed.").classes("remark")
+        self.folded = ui.switch("", on_change=lambda event: self.show_all(event.value)).props("dense").classes("remark").mark("folded")
+        self.folded.set_visibility(False)
         for name, keys in self.keys.items():
             self.groups[name] = Group(name, keys, self.change, self.leave_out)
 
@@ -167,6 +202,30 @@ class Form:
         """What the program says of the case."""
         for name, group in self.groups.items():
             group.show_messages([one for one in messages if one.group == name])
+
+    def explain(self, messages, case):
+        """The messages, of which those of a number with an unknown unit say which units there are."""
+        found = []
+        for one in messages:
+            key = self.keys.get(one.group, {}).get(one.key)
+            value = case.get(f"{one.group}%{one.key}") if key and case is not None else None
+            words = key.unknown_unit(value) if value is not None else ""
+            found.append(dataclasses.replace(one, words=words) if words else one)
+        return tuple(found)
+
+    def show_uses(self, no_use):
+        """Folds away what has no use in the case: {(group, key): why}."""
+        for name, group in self.groups.items():
+            group.no_use = {key: why for (of, key), why in no_use.items() if of == name}
+            group.fold()
+        self.folded.set_text(f"show the {len(no_use)} keys that have no use in this case, too")
+        self.folded.set_visibility(bool(no_use))
+
+    def show_all(self, shows):
+        """Whether what has no use is shown, too."""
+        for group in self.groups.values():
+            group.shows_all = shows
+            group.fold()
 
     def look_for(self, words):
         """Leaves what has these words in its name or meaning."""

@@ -6,7 +6,7 @@ import re
 
 from gfb import program
 from gfb.case import Case, CaseError
-from gfb.tables import readable_unit, units_of
+from gfb.tables import ALSO_TYPED, readable_unit, units_of
 
 WORD = re.compile(r"'([^']*)'")
 QUANTITY = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?)(?:\s+([^,*]+)|([A-Za-z][^,*]*))?")
@@ -71,14 +71,34 @@ class Key(program.Key):
         found = QUANTITY.fullmatch(words)
         if not found:
             return None
-        units = units_of(self.unit)
-        number, unit = re.sub("[dD]", "e", found[1]), (found[2] or found[3] or "").strip()
+        units, others = units_of(self.unit), ALSO_TYPED.get(self.unit, {})
+        number, unit = re.sub("[dD]", "e", found[1]), unit_in(found)
+        if unit in others:
+            return float(decimal.Decimal(number)*decimal.Decimal(others[unit]))
         if unit not in units and unit:
             return None
         scale = units.get(unit, 1.0)
         if "real" not in self.kind and scale == 1.0 and re.fullmatch(r"[+-]?\d+", number):
             return int(number)
         return float(decimal.Decimal(number)/decimal.Decimal(repr(scale)))
+
+
+    def unknown_unit(self, value):
+        """What is wrong with a value that is a number with a unit of another kind; empty where that is not what is wrong."""
+        words = ", ".join(map(str, value)) if isinstance(value, tuple) else value
+        if not isinstance(words, str) or self.is_text or self.choices:
+            return ""
+        known = [one for one in (*units_of(self.unit), *ALSO_TYPED.get(self.unit, {})) if one not in ("", "1")]
+        for found in filter(None, map(QUANTITY.fullmatch, map(str.strip, words.split(",")))):
+            if unit_in(found) and unit_in(found) not in known:
+                return f"{found[0]}: '{unit_in(found)}' is no unit of this key; it knows {' and '.join(filter(None, (', '.join(known[:-1]), known[-1])))}" if known \
+                    else f"{found[0]}: this key is a number without a unit"
+        return ""
+
+
+def unit_in(found):
+    """The unit of a quantity; empty where it has none."""
+    return (found[2] or found[3] or "").strip()
 
 
 def quoted(words):

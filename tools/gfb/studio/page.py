@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import dataclasses
 import pathlib
 
 from nicegui import app, background_tasks, ui
@@ -9,12 +10,14 @@ from nicegui import run as workers
 
 from gfb.case import Case, CaseError
 from gfb.namelist import namelist_value
-from gfb.report.main import PAGE
-from gfb.studio.checking import check
+from gfb.report.main import PAGE, svg_of
+from gfb.report.sketch import case_sketch
+from gfb.studio.checking import check, without_use
 from gfb.studio.form import Form
 from gfb.studio.keys import read_keys
 from gfb.studio.results import ResultsView
 from gfb.studio.runs import CASE, Folder, Refused, Runs
+from gfb.studio.templates import Templates
 from gfb.studio.text import with_value, without_group
 
 PAUSE = 0.3   # s without a change until what was typed is taken over and checked
@@ -24,17 +27,32 @@ MOST_SAID = 50  # messages that are shown
 LEFT = """<script>addEventListener("unhandledrejection", (event) => {
   if (String(event.reason).includes("Resize must be passed a displayed plot div")) event.preventDefault();
 });</script>"""
+# The group in whose field or lines the cursor stands is marked in the sketch.
+MARKED = """<style id="marked"></style><script>
+const mark = (group) => { document.getElementById("marked").textContent = /^\\w+$/.test(group || "") ?
+  `.beside-form .of-${group} { stroke: var(--marked) !important; stroke-width: 2.2 !important; }` : ""; };
+document.addEventListener("focusin", (event) => { const box = event.target.closest("[data-group]"); if (box) mark(box.dataset.group); });
+document.addEventListener("selectionchange", () => setTimeout(() => {
+  if (!document.activeElement?.closest(".cm-editor")) return;
+  const begin = document.querySelector(".cm-activeLine");
+  for (let line = begin; line; line = line.previousElementSibling) {
+    const found = line.textContent.match(/^\\s*[&$](\\w+)/);
+    if (found) return mark(found[1].toLowerCase());
+    if (line !== begin && /^\\s*\\/\\s*(!.*)?$/.test(line.textContent)) break;
+  }
+  mark("");
+}));</script>"""
 EMPTY = "&scene\n  title = ''\n/\n"
 
 
 def make_page(folder, gfb):
     """Prepares the page of a folder and a program."""
     place, keys = Folder(folder), read_keys(gfb)
-    runs = Runs(place, gfb)
+    runs, templates = Runs(place, gfb), Templates(keys, gfb)
 
     @ui.page("/")
     async def page(case: str = ""):
-        tab = Tab(place, keys, runs, gfb)
+        tab = Tab(place, keys, runs, templates, gfb)
         tab.build()
         with contextlib.suppress(TimeoutError):
             await ui.context.client.connected()
@@ -45,8 +63,8 @@ def make_page(folder, gfb):
 class Tab:
     """One tab of a browser; what is in it is its own, but for runs and files."""
 
-    def __init__(self, folder, keys, runs, gfb):
-        self.folder, self.runs, self.gfb = folder, runs, gfb
+    def __init__(self, folder, keys, runs, templates, gfb):
+        self.folder, self.runs, self.templates, self.gfb = folder, runs, templates, gfb
         self.keys = keys
         self.text, self.known = "", None  # known: what the case file holds that was opened or saved here
         self.untouched = None             # the program's example as it came
@@ -59,7 +77,7 @@ class Tab:
 
     def build(self):
         """All of the page."""
-        ui.add_head_html(LEFT)
+        ui.add_head_html(LEFT + MARKED)
         ui.colors(primary="#2b4a6f")
         ui.add_css(PAGE.get_template("look.css").render())
         ui.add_css(pathlib.Path(__file__).with_name("page.css"))
@@ -68,6 +86,7 @@ class Tab:
             with ui.tabs() as tabs:
                 case, runs, results = (ui.tab(name) for name in ("Case", "Runs", "Results"))
         self.tabs = tabs
+        tabs.on_value_change(self.turned)
         with ui.tab_panels(tabs, value=case, animated=False, keep_alive=True).props("keep-alive-exclude=Results").classes("panels"):
             with ui.tab_panel(case):
                 self.build_case()
@@ -81,9 +100,11 @@ class Tab:
 
     def build_case(self):
         """Buttons, messages, form and text."""
+        self.gallery = ui.dialog()
         with ui.row().classes("bar"):
             self.opening = ui.select([], label="open a case", on_change=self.open_chosen).classes("chooser").mark("open")
             self.name = ui.input("name", value="case").classes("name").mark("name")
+            ui.button("New", on_click=self.begin_anew).props("outline").mark("new")
             ui.button("Save", on_click=self.save).props("outline")
             ui.button("Run", icon="play_arrow", on_click=self.run).mark("run")
         self.verdict = ui.label("").classes("verdict")
@@ -93,6 +114,7 @@ class Tab:
                 self.form = Form(self.keys, self.set_value, self.leave_out)
                 self.form.build()
             with ui.column().classes("side follows"):
+                self.sketch = ui.html("", sanitize=False).classes("beside-form")
                 self.editor = ui.codemirror("", language="Fortran", line_wrapping=False, on_change=self.text_typed).classes("text")
                 with ui.expansion("what the scene needs").classes("wide"):
                     self.needs = ui.label("").classes("log")
@@ -111,29 +133,40 @@ class Tab:
         else:
             await self.template("equilibrium")
 
+    async def turned(self, event):
+        """Another part of the page is looked at."""
+        if event.value == "Results":
+            await self.results.show_last()
+
     # --- files ---
 
     async def list_cases(self):
-        """The case files of the folder, and the program's own examples, as the program names them."""
-        analyses = [*self.keys["scene"]["analysis"].choices, *(word for word in self.keys["bearing"]["kind"].choices if word == "thrust")]
-        options = {name: name for name in await workers.io_bound(self.folder.cases)} | {f"template {one}": f"new: {one.replace('_', ' ')}" for one in analyses}
-        self.opening.set_options(options, value=None)
+        """The case files of the folder."""
+        self.opening.set_options(await workers.io_bound(self.folder.cases), value=None)
 
     async def open_chosen(self, event):
         """Opens what was chosen from the list."""
         if not event.value:
             return
-        if self.text not in (self.known, self.untouched) and not await self.may_replace():
-            return await self.list_cases()
-        first, _, analysis = event.value.partition(" ")
-        if first == "template":
-            await self.template(analysis)
-        else:
+        if await self.may_replace():
             await self.open(event.value)
         await self.list_cases()
 
+    async def begin_anew(self):
+        """Begins from one of the program's own cases."""
+        try:
+            if not self.gallery.default_slot.children:
+                await self.templates.fill(self.gallery)
+        except CaseError as error:
+            return complain(error)
+        name = await self.gallery
+        if name and await self.may_replace():
+            await self.template(name)
+
     async def may_replace(self):
         """Asks before what was not saved is lost."""
+        if self.text in (self.known, self.untouched):
+            return True
         with ui.dialog() as dialog, ui.card():
             ui.label(f"{self.name.value} has changes that are not saved.")
             with ui.row():
@@ -144,7 +177,7 @@ class Tab:
     async def template(self, analysis):
         """A case of the program's own."""
         try:
-            text = str(await workers.io_bound(Case.template, analysis, self.gfb))
+            text, _ = (await self.templates.all())[analysis]
         except CaseError as error:
             return complain(error)
         self.known, self.untouched, self.name.value = None, text, analysis
@@ -209,13 +242,22 @@ class Tab:
             return
         self.remember()
         try:
-            self.form.show(Case.parse(self.text))
+            case = Case.parse(self.text)
+            self.form.show(case)
+            self.draw(case)
         except CaseError:
-            pass  # the program says what is wrong with it
-        judged = await check(self.gfb, self.text)
+            case = None  # the program says what is wrong with it
+        judged, no_use = await asyncio.gather(check(self.gfb, self.text), without_use(self.gfb, self.text))
         if change == self.changes:
-            self.judged = judged
-            self.show_judged(judged)
+            self.judged = dataclasses.replace(judged, messages=self.form.explain(judged.messages, case))
+            self.show_judged(self.judged)
+            self.form.show_uses(no_use)
+
+    def draw(self, case):
+        """The sketch follows the case; half a number leaves the last one."""
+        drawn = case_sketch(case)
+        if drawn:
+            self.sketch.set_content(svg_of(drawn))
 
     def show_judged(self, judged):
         """Messages: all of them above, each at its field, and at its line."""
@@ -261,6 +303,7 @@ class Tab:
 
     async def show_result(self, run):
         """Shows the results of a run beside those that are shown."""
+        await self.results.find_last()  # which is not what is asked for
         self.tabs.set_value("Results")
         await self.results.add(str(run.stem.relative_to(self.folder.path)))
 

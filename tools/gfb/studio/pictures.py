@@ -2,13 +2,16 @@
 
 import contextlib
 import html
+import math
 import pathlib
 
+import matplotlib
 import numpy
+from matplotlib import colors
 
 from gfb.files import kept_within
 from gfb.look import FONT
-from gfb.plot.colours import LINES
+from gfb.plot.colours import LINES, look_of, round_ticks
 from gfb.plot.foil import is_foil, names, round_scale, shape_of
 from gfb.plot.ring import TRAVEL
 from gfb.plot.rolled import drawn_larger, paths_of, read_shaft, read_surface
@@ -100,8 +103,8 @@ def sheet(x, y, z, colour, words, **looks):
 def space(data, x, y, z, sides=None, near=1.0, above=""):
     """A figure in space; near: how far from it the eye is, 1 leaves room for words at the axes; above: words about it."""
     shape = {"aspectmode": "manual", "aspectratio": dict(zip("xyz", sides))} if sides else {"aspectmode": "data"}
-    axes = {f"{axis}axis": {"title": {"text": words}, "visible": bool(words)} for axis, words in zip("xyz", (x, y, z))}
-    return {"data": data, "layout": {**LOOK, "scene": {**axes, **shape, "camera": {"eye": {axis: near*one for axis, one in EYE.items()}}}, "height": 460}, "config": MODES, "above": above}
+    axes = {f"{axis}axis": {"title": {"text": words}, "visible": bool(words), "nticks": 6} for axis, words in zip("xyz", (x, y, z))}
+    return {"data": data, "layout": {**LOOK, "scene": {**axes, **shape, "domain": {"y": [0.12, 1.0]}, "camera": {"eye": {axis: near*one for axis, one in EYE.items()}}}}, "config": MODES, "above": above}
 
 
 # --- films ---
@@ -119,17 +122,60 @@ def film(stem, name):
         theta = found["theta"].values
         pads = found["pad"].values[:, 0] if "pad" in found else numpy.zeros(len(theta))
     across = 1.0e3*found["radius" if ring else "z"].values
-    looks = {"colorscale": "Viridis", "cmin": float(values.min()), "cmax": float(values.max())}
     data: list[dict[str, object]] = []
     for pad in numpy.unique(pads):
         own = pads == pad
-        angle, side = numpy.meshgrid(theta[own], across, indexing="ij")
-        if ring:
-            x, y, hover = side*numpy.cos(angle), side*numpy.sin(angle), f"x %{{x:.4g}} mm, y %{{y:.4g}} mm<br>%{{z:.5g}} {unit}<extra></extra>"
-        else:
-            x, y, hover = numpy.degrees(angle), side, f"theta %{{x:.4g}} deg, z %{{y:.4g}} mm<br>%{{z:.5g}} {unit}<extra></extra>"
-        data.append(sheet(x, y, values[own], values[own], words, hover=hover, showscale=not data, **looks))
-    return space(data, "x [mm]" if ring else "theta [deg]", "y [mm]" if ring else "z [mm]", words, (1.2, 1.2, 0.6) if ring else (1.6, 1.0, 0.7), near=1.1)
+        for place, height in [(theta[own], values[own])] if ring else within_a_turn(theta[own], values[own]):
+            angle, side = numpy.meshgrid(place, across, indexing="ij")
+            if ring:
+                x, y, hover = side*numpy.cos(angle), side*numpy.sin(angle), f"x %{{x:.4g}} mm, y %{{y:.4g}} mm<br>%{{z:.5g}} {unit}<extra></extra>"
+            else:
+                x, y, hover = numpy.degrees(angle), side, f"theta %{{x:.4g}} deg, z %{{y:.4g}} mm<br>%{{z:.5g}} {unit}<extra></extra>"
+            data.append(sheet(x, y, height, height, words, hover=hover, showscale=not data))
+    figure = space(data, "x [mm]" if ring else "theta [deg]", "y [mm]" if ring else "z [mm]", words, (1.2, 1.2, 0.6) if ring else (1.6, 1.0, 0.7), near=1.2)
+    if not ring:
+        figure["layout"]["scene"]["xaxis"] |= {"range": [0.0, 360.0], "dtick": 90.0}
+    return figure | {"field": name}
+
+
+def within_a_turn(theta, values):
+    """Stations of a pad and their values, theta from 0 to 360 degrees; in two where the pad goes over that."""
+    turn = 2.0*numpy.pi
+    begin = theta - turn*numpy.floor((theta.min() + 1.0e-9)/turn)
+    over = int(numpy.searchsorted(begin, turn*(1.0 + 1.0e-9)))
+    if over == len(begin):
+        return [(begin, values)]
+    before = max(over - 1, 0)
+    part = (turn - begin[before])/(begin[over] - begin[before])
+    middle = ((1.0 - part)*values[before] + part*values[over])[None]
+    return [(numpy.append(begin[:over], turn), numpy.concatenate((values[:over], middle))),
+            (numpy.append(turn, begin[over:]) - turn, numpy.concatenate((middle, values[over:])))]
+
+
+def same_colours(figures):
+    """One range of colours for what stands side by side; films have the scale that tools/plot has: that of a gap is logarithmic."""
+    films = [one for one in figures if "field" in one]
+    sheets = [one for figure in films for one in figure["data"]]
+    if sheets:
+        low, high = min(float(one["z"].min()) for one in sheets), max(float(one["z"].max()) for one in sheets)
+        look = look_of(films[0]["field"], low, high)
+        ticks = round_ticks(look["norm"])
+        for one in sheets:
+            one |= {"surfacecolor": numpy.ascontiguousarray(look["norm"](one["z"]), dtype="float32"), "cmin": 0.0, "cmax": 1.0, "colorscale": scale_of(look["cmap"])}
+            one["colorbar"] |= {"tickmode": "array", "tickvals": [float(look["norm"](tick)) for tick in ticks], "ticktext": [f"{tick:g}" for tick in ticks]}
+        is_log = isinstance(look["norm"], colors.LogNorm)
+        for figure in films:
+            figure["layout"]["scene"]["zaxis"] |= {"range": [math.log10(low), math.log10(high)] if is_log else [low, high]}
+            if is_log:
+                figure["layout"]["scene"]["zaxis"] |= {"type": "log", "tickmode": "array", "tickvals": ticks, "ticktext": [f"{tick:g}" for tick in ticks]}
+    others = [one for figure in figures if "field" not in figure for one in figure["data"]]
+    for one in others:
+        one |= {"cmin": min(one["cmin"] for one in others), "cmax": max(one["cmax"] for one in others)}
+
+
+def scale_of(name):
+    """A map of colours of tools/plot, as Plotly has them."""
+    return [[i/32.0, colors.to_hex(matplotlib.colormaps[name](i/32.0))] for i in range(33)]
 
 
 # --- foils ---
@@ -151,7 +197,7 @@ def foils(stem):
     for foil, place, off in zip(found, places, away):
         for numbers in foil.sheets():
             x, y, z = (1.0e3*place[numbers, axis] for axis in (2, 0, 1))
-            data.append(sheet(x, y, z, off[numbers], "away from the shaft [um]", colorscale="RdBu", cmin=-far,
+            data.append(sheet(x, y, z, off[numbers], "away from the shaft [um]", colorscale=scale_of("RdBu_r"), cmin=-far,
                               cmax=far, showscale=not data, hover=f"{foil.name.replace('_', ' ')}<br>%{{surfacecolor:.4g}} um<extra></extra>"))
     return space(data, "", "", "", near=0.9, above=f"displacements x {travel:g}, heights off the shaft x {taller:g}")
 

@@ -1,9 +1,9 @@
-"""Results side by side: answers first, pictures that can be turned, all names, and the keys in which the cases differ."""
+"""Results side by side: answers first, pictures that can be turned, all names, and the keys and answers that differ."""
 
 from nicegui import run as workers
 from nicegui import ui
 
-from gfb.report.main import answer_rows, key_rows, svg_of
+from gfb.report.main import answer_rows, differences, key_rows, svg_of
 from gfb.report.verdict import colour_of, total_power
 from gfb.results import Unreadable
 from gfb.studio import pictures
@@ -16,7 +16,7 @@ class ResultsView:
     """What is shown of the results that are chosen."""
 
     def __init__(self, folder):
-        self.folder, self.shown, self.found = folder, [], {}
+        self.folder, self.shown, self.found, self.newest = folder, [], {}, None
 
     def build(self):
         """Chooser, and room for the rest."""
@@ -25,12 +25,24 @@ class ResultsView:
                 .props("use-chips").classes("chooser wide").mark("results").on("popup-show", self.list)
         self.room = ui.column().classes("wide")
 
+    async def show_last(self):
+        """Shows the last run, beside what is chosen, unless it was the last one before."""
+        if name := await self.find_last():
+            await self.add(name)
+
+    async def find_last(self):
+        """The last run; None where it was that before, or there is none."""
+        there, before = await self.list(), self.newest
+        self.newest = there[0] if there else None
+        return self.newest if self.newest != before else None
+
     async def list(self):
-        """The results that there are."""
+        """The results that there are, the newest first."""
         there = await workers.io_bound(self.folder.results)
         options = list(dict.fromkeys([*there, *self.chooser.value]))
         if options != self.chooser.options:
             self.chooser.set_options(options)
+        return there
 
     async def add(self, name):
         """Shows one more."""
@@ -74,6 +86,8 @@ class ResultsView:
             if len(runs) > 1:
                 ui.label("What of the cases differs").classes("brand")
                 table_of([{"name": row["name"], "unit": "", "values": row["values"]} for row in key_rows(runs) if row["differs"]], runs, "key")
+            if len(runs) == 2:
+                show_differences(*runs)
             with ui.expansion("all results by name").classes("wide"):
                 table_of(answer_rows(runs), runs, "name", meaning=True)
 
@@ -105,7 +119,7 @@ class ResultsView:
                     ui.notify(str(error), type="negative", multi_line=True)
         if name != self.kind.value:
             return
-        same_colours([figure for _, figure in figures if figure])
+        pictures.same_colours([figure for _, figure in figures if figure])
         self.drawn.clear()
         with self.drawn, ui.element("div").classes("beside"):
             for run, figure in figures:
@@ -113,7 +127,8 @@ class ResultsView:
                     ui.label(run["name"]).classes("brand")
                     if figure:
                         ui.label(figure.pop("above")).classes("remark")
-                        ui.plotly(figure).classes("wide")
+                        figure.pop("field", None)
+                        ui.plotly(figure).classes("wide space")
                     else:
                         ui.label("cannot be drawn of this result")
 
@@ -154,8 +169,20 @@ def table_of(rows, runs, first, meaning=False):
     lines = [{"name": row["name"], "unit": row["unit"] if row["unit"] != "1" else "", "meaning": row.get("meaning", "")}
              | {f"v{i}": value for i, value in enumerate(row["values"])} for row in rows]
     looked_for = ui.input("find").props("dense clearable")
-    ui.table(rows=lines, columns=sides, row_key="name", pagination=0).props("dense flat wrap-cells").classes("wide") \
+    ui.table(rows=lines, columns=sides, row_key="name", pagination=0).props("dense flat wrap-cells hide-bottom").classes("wide") \
         .bind_filter_from(looked_for, "value", lambda words: words or "")
+
+
+def show_differences(first, second):
+    """A table of what the second of two answers has otherwise than the first, in the units that people read."""
+    ui.label("What of the answers differs").classes("brand")
+    rows = differences(first, second)
+    if not rows:
+        ui.label("nothing")
+        return
+    heads = (("name", "name"), ("first", first["name"]), ("second", second["name"]), ("more", "difference"), ("percent", "in %"), ("meaning", "meaning"))
+    columns = [{"name": key, "label": head, "field": key, "align": "left" if key in ("name", "meaning") else "right", "sortable": True} for key, head in heads]
+    ui.table(rows=rows, columns=columns, row_key="name", pagination=0).props("dense flat wrap-cells hide-bottom").classes("wide differences")
 
 
 def show_points(runs):
@@ -174,12 +201,3 @@ def show_points(runs):
         x = ui.select(columns, label="across", value=first, on_change=redraw)
     shown = ui.plotly({"data": [], "layout": {}}).classes("wide")
     redraw()
-
-
-def same_colours(figures):
-    """One range of colours for what stands side by side."""
-    surfaces = [one for figure in figures for one in figure["data"]]
-    if surfaces:
-        low, high = min(one["cmin"] for one in surfaces), max(one["cmax"] for one in surfaces)
-        for one in surfaces:
-            one["cmin"], one["cmax"] = low, high
