@@ -32,7 +32,8 @@ from gfb.files import Unfit  # noqa: E402
 from gfb.gallery.runs import Result  # noqa: E402
 from gfb.plot import main as plot_main  # noqa: E402
 from gfb.report import main as report_main  # noqa: E402
-from gfb.report.glance import Results, glance  # noqa: E402
+from gfb.report.answer import Results  # noqa: E402
+from gfb.report.glance import glance  # noqa: E402
 from gfb.report.sketch import case_sketch, sketch  # noqa: E402
 from gfb.report.verdict import margins_of, sentence  # noqa: E402
 from gfb.results import SEAL_LENGTH, Unreadable, read_film, read_history, read_summary, seal  # noqa: E402
@@ -344,7 +345,7 @@ class ForeignTest(unittest.TestCase):
         groups = {"bearing": ("radius", "length", "clearance", "inner_radius", "outer_radius", "leading_edge_angle"), "operation": ("load", "axial_load", "speed_rpm"),
                   "pads": ("count", "arc", "gap", "first_leading_edge"), "rotor": ("mass",), "shaft_contact": ("roughness",), "ramp": ("part", "height"), "bump_foil": ("pitch", "half_length", "height", "bumps", "bump_pitch", "crest_angles", "strip_offset"),
                   "bore": ("waves", "wave_amplitude", "shim_angle", "shim_height", "shim_arc", "shim_ramp", "profile_angle", "profile_height")}
-        names = {name for name in re.findall(r"[\"'](\w+)[\"']", "".join((PROJECT/f"tools/gfb/report/{one}.py").read_text(encoding="utf-8") for one in ("glance", "sketch", "verdict")))}
+        names = {name for name in re.findall(r"[\"'](\w+)[\"']", "".join((PROJECT/f"tools/gfb/report/{one}.py").read_text(encoding="utf-8") for one in ("answer", "glance", "sketch", "verdict")))}
         results = {name: {"value": 1.0, "unit": "m", "meaning": ""} for name in names}
         others = (None, "words", True, (), (1.0, 2.0, 3.0), ("a", "b"), math.nan, math.inf, 0, -1, 0.0, 1e300, 10**400, 10**9)
         begin = time.perf_counter()

@@ -23,7 +23,7 @@ from typing import Any
 
 from gfb.case import Case, CaseError
 from gfb.design_work import Part, Progress, compute_all, tilt_words
-from gfb.report.glance import Results, carried_by
+from gfb.report.answer import LAST_STATE, Results, carried_by, film_words
 from gfb.report.main import read_run, write_page
 from gfb.report.verdict import NO_ANSWER, ONSET, Margin, compared, margins_of, not_computed, sentence
 from gfb.results import read_history
@@ -222,11 +222,11 @@ def rows_of(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]]) -> list[t
             continue
         if part.stopped:
             points = len(next(iter(run["points"].values()), ()))
-            there = f"the last state reached is below; {points} of {part.states} points" if part.states > 1 else "the last state reached is below"
+            there = f"{LAST_STATE} is below" + (f"; {points} of {part.states} points" if part.states > 1 else "")
             rows.append((part.question, part.stopped, f"{there}; another call goes on", True))
         elif not run["converged"]:
             why = ": ".join(str(run["summary"][name]["value"]) for name in ("outcome", "reason") if name in run["summary"])
-            rows.append((part.question, "no answer", f"{why}; the last state reached is below", True))
+            rows.append((part.question, NO_ANSWER, f"{why}; {LAST_STATE} is below", True))
         elif part.name == "point":
             rows += run["glance"]
         else:
@@ -246,16 +246,12 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
         elif part.name == "directions":
             angles, films = column(run, "load_angle"), column(run, "minimum_gap")
             worst = min(range(len(films)), key=films.__getitem__)
-            found.append(compared("film", f"thinnest film {1.0e6*films[worst]:.4g} um under a load at {angles[worst] % 360.0:.0f} deg",
+            found.append(compared("film", film_words(films[worst], f"under a load at {angles[worst] % 360.0:.0f} deg"),
                                   f"{1.0e6*gap:.3g} um are wanted", films[worst]/gap, "load from every direction"))
         elif part.name == "capacity":
-            wanted, there = carried_by(run["used"]), at_own_speed(run)
-            capacity = column(run, "load_capacity")[there]
-            if wanted:
-                found.append(compared("load", f"load capacity {capacity:.4g} N at {column(run, 'speed_rpm')[there]:,.0f} rpm", f"the load is {wanted:.4g} N",
-                                      capacity/wanted))
+            found += [margin for margin in [margin_of_capacity(run)] if margin.limit]
         elif part.name == "whirl":  # its own speed is that of the operating point
-            found += [one for one in run["margins"] if one.value.startswith(ONSET)]
+            found += [one for one in run["margins"] if one.result == ONSET]
         else:
             own = margins_of(Results(run["summary"], run["used"], run["place"]), gap)
             found += own if part.name == "point" else [dataclasses.replace(one, where=part.question) for one in own]
@@ -284,17 +280,24 @@ def answer_directions(question: str, run: dict[str, Any]) -> list[tuple[str, str
     """The direction in which the film is thinnest."""
     angles, films = column(run, "load_angle"), column(run, "minimum_gap")
     worst, best = min(range(len(films)), key=films.__getitem__), max(range(len(films)), key=films.__getitem__)
-    return [(question, f"thinnest film {1.0e6*films[worst]:.4g} um with it at {angles[worst] % 360.0:.0f} deg",
+    return [(question, film_words(films[worst], f"with it at {angles[worst] % 360.0:.0f} deg"),
              f"{1.0e6*films[best]:.4g} um at {angles[best] % 360.0:.0f} deg", False)]
+
+
+def margin_of_capacity(run: dict[str, Any]) -> Margin:
+    """The capacity at the speed of the case, against its load where it has one."""
+    wanted, there = carried_by(run["used"]), at_own_speed(run)
+    capacity = column(run, "load_capacity")[there]
+    words = f"load capacity {capacity:.4g} N at {column(run, 'speed_rpm')[there]:,.0f} rpm"
+    return compared("load", words, f"the load is {wanted:.4g} N", capacity/wanted) if wanted else Margin("load", words)
 
 
 def answer_capacity(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
     """Capacities over the speed, and the margin at that of the case."""
     speeds, loads = column(run, "speed_rpm"), column(run, "load_capacity")
-    wanted, there = carried_by(run["used"]), at_own_speed(run)
-    margin = f"{loads[there]/wanted:.3g} times the {wanted:.4g} N of the case" if wanted else ""
+    margin, there = margin_of_capacity(run), at_own_speed(run)
     others = ", ".join(f"{load:.4g} N at {speed:,.0f}" for speed, load in zip(speeds, loads))
-    return [(question, f"{loads[there]:.4g} N at {speeds[there]:,.0f} rpm", margin, bool(wanted) and loads[there] < wanted),
+    return [(question, f"{loads[there]:.4g} N at {speeds[there]:,.0f} rpm", margin.against, margin.is_broken),
             ("", others + " rpm", "", False)]
 
 
@@ -311,8 +314,9 @@ def answer_whirl(question: str, run: dict[str, Any]) -> list[tuple[str, str, str
         onset = run["summary"].get("onset_speed_rpm", {}).get("value", math.nan)
         words = f"onset at {onset:,.0f} rpm" if onset == onset else ("grows at " if grows else "dies out at all ") + \
             (", ".join(f"{speed:,.0f}" for speed in grows) if grows else f"{min(speeds):,.0f} to {max(speeds):,.0f}") + " rpm"
+        margin = next((one for one in run["margins"] if one.result == ONSET), None)
         own = float(run["used"]["operation%speed_rpm"])
-        rows.append(("the rotor's vibrations", words, f"{onset/own:.3g} times the speed" if onset == onset else "", bool(grows) and min(grows) <= own))
+        rows.append(("the rotor's vibrations", words, margin.against if margin else "", margin.is_broken if margin else bool(grows) and min(grows) <= own))
     return rows or [(question, "no number", "see its log", False)]
 
 
@@ -320,7 +324,7 @@ def answer_orbit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str
     """The orbit's size, and the film that is left."""
     size = {axis: run["summary"][f"orbit_{axis}"]["value"] for axis in "xy"}
     film, ending = run["summary"]["minimum_gap_over_time"]["value"], run["summary"].get("not_reached", {}).get("value", "")
-    return [(question, f"{1.0e6*size['x']:.3g} x {1.0e6*size['y']:.3g} um", f"thinnest film {1.0e6*film:.4g} um" + (f"; not reached: {ending}" if ending else ""),
+    return [(question, f"{1.0e6*size['x']:.3g} x {1.0e6*size['y']:.3g} um", film_words(film) + (f"; not reached: {ending}" if ending else ""),
              bool(ending))]
 
 

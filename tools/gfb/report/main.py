@@ -22,7 +22,8 @@ from gfb.files import fresh
 from gfb.heat import HEATED, balance
 from gfb.look import FONT
 from gfb.program import call, find_program
-from gfb.report.glance import Results, glance
+from gfb.report.answer import LAST_STATE, Results, ended
+from gfb.report.glance import glance
 from gfb.report.sensitivities import sensitivities
 from gfb.report.sketch import sketch
 from gfb.report.thinnest import place_of_thinnest
@@ -33,9 +34,8 @@ from gfb.tool import command_beside, draw_into_files, parser_of, say, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
-PAGE.globals |= {"font": FONT, "colour_of": colour_of}
+PAGE.globals |= {"font": FONT, "colour_of": colour_of, "last_state": LAST_STATE}
 ENDINGS = (".h5", ".summary")
-STOPPED = ("stopped", "out_of_time")  # outcomes of runs that did not come to their end
 SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
 SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency", "campbell": "the rotor's modes over the speed"}
 SECONDS = 300     # no picture takes that long
@@ -131,13 +131,6 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         "verdict": sentence(margins, why, about["open_questions"]), "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
         "converged": converged, "ended": why, "heads": heads, "rows": rows if points > 1 else [], "left_out": max(0, points - MOST_ROWS),
         "case_file": case_file, "used": used, "origin": origin, "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
-
-
-def ended(summary):
-    """How a run without an answer ended, in a sentence."""
-    outcome, reason = (summary.get(name, {}).get("value", "") for name in ("outcome", "reason"))
-    begin = "Stopped before there was an answer" if outcome in STOPPED else "No answer was found"
-    return f"{begin}{f' ({reason})' if reason else ''}: the numbers are those of the last state reached."
 
 
 def swept_keys(case, last):

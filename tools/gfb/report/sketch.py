@@ -4,7 +4,7 @@ stand below. tools/studio has it beside the form; on pages of results it has the
 import itertools
 import math
 
-from gfb.report.glance import Results, direction, is_number
+from gfb.report.answer import THINNEST, Results, direction, is_number
 
 SHAFT, RING, BAND = 64.0, 85.0, 5.0  # radius of a shaft, outer radius of sectors, thickness of a sleeve
 # What is drawn larger: by how many times, unless it comes out lower or higher than these two.
@@ -205,7 +205,7 @@ def sketch(summary, case, thinnest=None):
     if thin:
         drawing.add("thinnest", "", circle(thin[0], thin[1], 5.0))
     words = thinnest.short() if thinnest else ""
-    first = [("note", f"○ thinnest film{', ' if words else ''}"), ("fine", words)] if thin else [("note", "(place of the thinnest film: no film file)")]
+    first = [("note", f"○ {THINNEST}{', ' if words else ''}"), ("fine", words)] if thin else [("note", f"(place of the {THINNEST}: no film file)")]
     drawing.notes[:0] = first + [("note centre", "- - to the shaft's centre, -e")]*bool(centre)
     return drawing.picture(WIDE) | {"pads": [path for look, _, path in drawing.shapes if look == "pad"], "thinnest": thin, "centre": centre, "words": words}
 

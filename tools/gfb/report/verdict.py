@@ -9,12 +9,12 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from gfb.report.glance import KELVIN, Results, carried_by
+from gfb.report.answer import KELVIN, Results, carried_by, film_words, place_words
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
 AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
 NO_ANSWER = "no answer"  # of a part of a study
-ONSET = "onset of whirl at"
+ONSET = "onset_speed_rpm"
 SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known", "missing": "✗ no answer"}
 
 
@@ -28,6 +28,7 @@ class Margin:
     factor: float | None = None    # how many times the limit is kept, below 1 broken; None: it is, or is not
     is_broken: bool = False
     where: str = ""                # part of a study
+    result: str = ""               # its name, where it is one result that is compared
 
     @property
     def state(self) -> str:
@@ -44,28 +45,39 @@ class Margin:
         """The margin in words."""
         return f"{self.factor:.3g} times" if self.factor is not None else ""
 
+    @property
+    def against(self) -> str:
+        """The limit and the margin in words."""
+        return ": ".join(filter(None, (self.limit, self.times)))
+
     def words(self) -> str:
         """All of it."""
         needed = "" if self.factor is None else f": {self.factor:.3g} {'of' if self.is_broken else 'times'} what is needed"
         return f"{self.value}{f' ({self.where})' if self.where else ''}, {self.limit}{needed}"
 
 
-def compared(subject: str, value: str, limit: str, factor: float, where: str = "") -> Margin:
+def compared(subject: str, value: str, limit: str, factor: float, where: str = "", result: str = "") -> Margin:
     """What is kept by a factor of 1 and more."""
-    return Margin(subject, value, limit, factor, not factor >= 1.0, where)
+    return Margin(subject, value, limit, factor, not factor >= 1.0, where, result)
 
 
 def margins_of(results: Results, smallest_gap: float | None = None) -> list[Margin]:
-    """All margins of one run; smallest_gap: a film that a study wants [m]."""
+    """The margins of one run; smallest_gap: a film that a study wants [m]."""
+    found = all_margins(results, smallest_gap)
+    return at_last_point(found) if "sweep" in results.case.groups else found
+
+
+def all_margins(results: Results, smallest_gap: float | None = None) -> list[Margin]:
+    """The same, of a sweep those of its last point beside those of all points."""
     found = list(film(results, smallest_gap))
     for question in (load, lift_off, whirl, foils, misalignment, temperature, stress):
         found += question(results)
-    return at_last_point(found) if "sweep" in results.case.groups else found
+    return found
 
 
 def at_last_point(margins: list[Margin]) -> list[Margin]:
     """Those of a sweep: an onset is of all points, and stands for the whirl of the last one, which may lie beyond the case's speed."""
-    onset = [one for one in margins if one.value.startswith(ONSET)]
+    onset = [one for one in margins if one.result == ONSET]
     others = [one for one in margins if one not in onset and not (onset and one.subject == "whirl")]
     return [*onset, *(dataclasses.replace(one, where="at the last point") for one in others)]
 
@@ -76,7 +88,7 @@ def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
     gap = results.value("minimum_gap") if over_time is None else over_time
     if gap is None or results.case.get("scene%analysis") in AT_LIMIT:
         return
-    words = f"thinnest film {1.0e6*gap:.4g} um" + (f" {results.place.words()}" if results.place and over_time is None else "")
+    words = film_words(gap, place_words(results) if over_time is None else "")
     clearance, touch_down = results.key("bearing%clearance", 0.0) or 0.0, results.key("solver%touch_down_gap", 0.0) or 0.0
     given = smallest_gap or results.key("capacity%smallest_gap")
     if given and given > 0.0:
@@ -95,7 +107,7 @@ def load(results: Results) -> Iterator[Margin]:
     capacity, wanted = results.value("load_capacity"), carried_by(results.case)
     if capacity is not None:
         words = f"load capacity {capacity:.4g} N"
-        yield compared("load", words, f"the load is {wanted:.4g} N", capacity/wanted) if wanted else Margin("load", words)
+        yield compared("load", words, f"the load is {wanted:.4g} N", capacity/wanted, result="load_capacity") if wanted else Margin("load", words)
 
 
 def lift_off(results: Results) -> Iterator[Margin]:
@@ -103,32 +115,32 @@ def lift_off(results: Results) -> Iterator[Margin]:
     off, speed = results.value("lift_off_speed_rpm"), results.key("operation%speed_rpm")
     if off is not None and off > 0.0:
         words = f"lift-off at {off:,.0f} rpm"
-        yield compared("lift-off", words, f"the speed is {speed:,.0f} rpm", speed/off) if speed else Margin("lift-off", words)
+        yield compared("lift-off", words, f"the speed is {speed:,.0f} rpm", speed/off, result="lift_off_speed_rpm") if speed else Margin("lift-off", words)
 
 
 def whirl(results: Results) -> Iterator[Margin]:
     """Critical mass against the rotor's, its growth, and the onset against the speed."""
     critical, mass = results.value("critical_mass"), results.key("rotor%mass")
-    speed, onset = results.key("operation%speed_rpm"), results.value("onset_speed_rpm")
+    speed, onset = results.key("operation%speed_rpm"), results.value(ONSET)
     growth, damped = results.value("growth_rate"), results.value("damping_ratio")
     frequency = results.value("whirl_frequency") or results.value("axial_frequency")
     if critical is not None:
         words = f"critical mass {critical:.4g} kg"
-        yield compared("whirl", words, f"the rotor has {mass:.4g} kg", critical/mass) if mass else Margin("whirl", words)
+        yield compared("whirl", words, f"the rotor has {mass:.4g} kg", critical/mass, result="critical_mass") if mass else Margin("whirl", words)
     if growth is not None:
         how = "" if frequency is None else f" at {frequency/(2.0*math.pi):.4g} Hz"
         ratio = "" if damped is None else f" with a damping ratio of {damped:.3g}"
         yield Margin("whirl" if results.value("axial_gap") is None else "axial vibration", f"rotor's least damped mode{how}",
-                     f"it {'grows' if growth >= 0.0 else 'dies out'}{ratio}", None, growth >= 0.0)
+                     f"it {'grows' if growth >= 0.0 else 'dies out'}{ratio}", None, growth >= 0.0, result="growth_rate")
     if onset is not None and speed:
-        yield compared("whirl", f"{ONSET} {onset:,.0f} rpm", f"the speed is {speed:,.0f} rpm", onset/speed)
+        yield compared("whirl", f"onset of whirl at {onset:,.0f} rpm", f"the speed is {speed:,.0f} rpm", onset/speed, result=ONSET)
 
 
 def foils(results: Results) -> Iterator[Margin]:
     """Whether foils stay in their equilibrium."""
     unstable = results.value("stability")
     if unstable is not None:
-        yield Margin("foils", "foils at rest", "stable" if unstable == 0.0 else "they leave this equilibrium", None, unstable != 0.0)
+        yield Margin("foils", "foils at rest", "stable" if unstable == 0.0 else "they leave this equilibrium", None, unstable != 0.0, result="stability")
 
 
 def not_computed(results: Results, margins: Sequence[Margin]) -> list[str]:
