@@ -7,8 +7,8 @@
 !> line search.
 module gfb_contact_set
   use gfb_kinds, only: wp
-  use gfb_contact_law, only: contact_law_type, contact_force, friction_force, carried_slip, next_place, contact_state, &
-                             keep_friction
+  use gfb_contact_law, only: contact_law_type, contact_force, friction_force, normal_force, carried_slip, next_place, &
+                             contact_state, state_open, keep_friction
   use gfb_contact_point, only: contact_point_type, spatial, moved_apart, add_at_contact, unknowns_of, &
                                block_of
   implicit none (type, external)
@@ -38,7 +38,7 @@ module gfb_contact_set
   contains
     procedure :: approach, next_change, add_penetration_rate, settle, settle_like, linearise_again
     procedure :: drop_anchor, settle_at, add_forces, point_block, point_unknowns, commit
-    procedure :: friction_work, penalty_energy, state_of, law_of
+    procedure :: friction_work, penalty_energy, state_of, is_open, pressing_force, law_of
   end type contact_set_type
 
 contains
@@ -322,4 +322,22 @@ contains
       state = contact_state(law, norm2(point%place(:2)), pressing)
     end associate
   end function state_of
+
+  !> Whether a contact touches nothing.
+  elemental logical function is_open(self, i)
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
+    integer, intent(in) :: i !! contact
+    is_open = self%state_of(i) == state_open
+  end function is_open
+
+  !> The normal force of a contact's law where it is, wherever it is linearised [N].
+  pure real(wp) function pressing_force(self, i, displacement) result(force)
+    class(contact_set_type), intent(in) :: self !! this rank's contacts
+    integer, intent(in) :: i                    !! contact
+    real(wp), intent(in) :: displacement(:)     !! of the set's unknowns [m]
+    real(wp) :: place(spatial), slope
+
+    place = self%approach(i, displacement)
+    call normal_force(self%law_of(self%point(i)), self%point(i)%length, place(3), force, slope)
+  end function pressing_force
 end module gfb_contact_set

@@ -13,7 +13,6 @@ module gfb_foil_model
   use gfb_quantity, only: quantity_type
   use gfb_cost_events, only: cost_events_type
   use gfb_bump_contacts, only: contact_top
-  use gfb_contact_law, only: state_open, normal_force
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_condensed_piece, only: condensed_piece_type
@@ -316,7 +315,7 @@ contains
       associate (point => self%contacts%point(i))
         if (point%law /= contact_top) cycle
         length(2) = length(2) + point%length
-        if (self%contacts%state_of(i) == state_open) length(1) = length(1) + point%length
+        if (self%contacts%is_open(i)) length(1) = length(1) + point%length
       end associate
     end do
   end function crest_lengths
@@ -328,18 +327,15 @@ contains
     real(wp), intent(in) :: unknown(:) !! local unknowns of the pad, in SI
     real(wp), allocatable :: force(:) !! [N]
     real(wp), allocatable :: own(:)
-    real(wp) :: approach(3), here, slope
     integer :: i
 
     allocate (force(self%crests), source=0.0_wp)
     if (self%crests == 0) return
     own = self%own_part(unknown)
     do i = 1, size(self%contacts%point)
-      if (self%contacts%point(i)%law /= contact_top) cycle
-      approach = self%contacts%approach(i, own)
       associate (point => self%contacts%point(i))
-        call normal_force(self%contacts%law_of(point), point%length, approach(3), here, slope)
-        force(point%line) = force(point%line) + here
+        if (point%law /= contact_top) cycle
+        force(point%line) = force(point%line) + self%contacts%pressing_force(i, own)
       end associate
     end do
   end function line_forces
