@@ -49,17 +49,21 @@ module gfb_archive
     logical, private :: judged = .false. !! what it restores may be anybody's
     character(len=:), allocatable, private :: passing !! the line that was taken last
   contains
-    procedure :: part
+    procedure, non_overridable :: part
     !> Saves or restores a component whose shape is known; a text is of any length.
     generic :: visit => visit_real, visit_reals, visit_matrix, visit_integer, visit_integers, &
       visit_integer_matrix, visit_logical, visit_text
     !> Saves or restores an allocatable array with its shape.
     generic :: visit_sized => visit_sized_reals, visit_sized_matrix, visit_sized_integers
-    procedure :: visit_count, visit_block, require, is_used_up, finish, numbers, words
-    procedure, private :: visit_real, visit_reals, visit_matrix, visit_integer, visit_integers, &
-      visit_integer_matrix, visit_logical, visit_text
-    procedure, private :: visit_sized_reals, visit_sized_matrix, visit_sized_integers, pass_line
-    procedure, private :: pass_shape, pass_numbers, pass_whole_numbers, add_letters, next_line, odd
+    procedure, non_overridable :: visit_count, visit_block, require
+    procedure, non_overridable :: is_used_up, finish, numbers, words
+    procedure, non_overridable, private :: visit_real, visit_reals, visit_matrix
+    procedure, non_overridable, private :: visit_integer, visit_integers
+    procedure, non_overridable, private :: visit_integer_matrix, visit_logical, visit_text
+    procedure, non_overridable, private :: visit_sized_reals, visit_sized_matrix
+    procedure, non_overridable, private :: visit_sized_integers, pass_line
+    procedure, non_overridable, private :: pass_shape, pass_numbers, pass_whole_numbers
+    procedure, non_overridable, private :: add_letters, next_line, odd
   end type archive_type
 
 contains

@@ -46,13 +46,17 @@ module gfb_run_log
     real(wp) :: patience = 10.0_wp !! time without a line, before one that waits [s]
     type(log_memory_type), pointer :: memory => null() !! null: nothing is collected
   contains
-    procedure :: begin => run_log_begin, remember => run_log_remember, line => run_log_line
-    procedure :: tell => run_log_tell, stage => run_log_stage, progress => run_log_progress
-    procedure :: is_at => run_log_is_at, is_within => run_log_is_within, is_on => run_log_is_on
-    procedure :: waiting => run_log_waiting
-    procedure :: detail => run_log_detail, heading => run_log_heading, warning => run_log_warning
-    procedure :: warned => run_log_warned, repeat_warnings => run_log_repeat_warnings
-    procedure :: complaint => run_log_complaint, judged => run_log_judged
+    procedure, non_overridable :: begin => run_log_begin
+    procedure, non_overridable :: remember => run_log_remember, line => run_log_line
+    procedure, non_overridable :: tell => run_log_tell, stage => run_log_stage
+    procedure, non_overridable :: progress => run_log_progress
+    procedure, non_overridable :: is_at => run_log_is_at, is_within => run_log_is_within
+    procedure, non_overridable :: is_on => run_log_is_on, waiting => run_log_waiting
+    procedure, non_overridable :: detail => run_log_detail, heading => run_log_heading
+    procedure, non_overridable :: warning => run_log_warning
+    procedure, non_overridable :: warned => run_log_warned
+    procedure, non_overridable :: repeat_warnings => run_log_repeat_warnings
+    procedure, non_overridable :: complaint => run_log_complaint, judged => run_log_judged
   end type run_log_type
 
 contains

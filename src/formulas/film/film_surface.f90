@@ -42,8 +42,9 @@ module gfb_film_surface
     real(wp) :: cosine = 1.0_wp, sine = 0.0_wp !! of beta [1]
     real(wp) :: facing = 1.0_wp !! -1: on the runner's other side
   contains
-    procedure :: is_ring, motions, radius_at, stretch, lever, tilt_arm, position, motion
-    procedure :: point_motions, motion_excess, rest_gap, gap
+    procedure, non_overridable :: is_ring, motions, radius_at, stretch
+    procedure, non_overridable :: lever, tilt_arm, position, motion
+    procedure, non_overridable :: point_motions, motion_excess, rest_gap, gap
   end type film_surface_type
 
 contains

@@ -19,7 +19,7 @@ module gfb_modulus_law
     real(wp), allocatable :: temperature(:) !! strictly rising, two at least [K]
     real(wp), allocatable :: ratio(:)       !! there, positive [1]
   contains
-    procedure :: is_given, at, covers
+    procedure, non_overridable :: is_given, at, covers
   end type modulus_law_type
 
 contains

@@ -43,7 +43,7 @@ module gfb_shell_geometry
     !> of the displacements' directions at the nodes, about the second axis of the positions [rad]
     real(wp) :: angle(shell_nodes) = 0.0_wp
   contains
-    procedure :: is_turned, directions
+    procedure, non_overridable :: is_turned, directions
   end type shell_geometry_type
 
   !> What an element is made of.

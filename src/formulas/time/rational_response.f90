@@ -43,7 +43,7 @@ module gfb_rational_response
     real(wp), allocatable, private :: scale(:) !! makes the coordinates' entries alike
     type(fit_type), private :: fit, fit_before !! to all samples; to all but the last
   contains
-    procedure :: add, has, fits, at, doubt, next_sample, poles
+    procedure, non_overridable :: add, has, fits, at, doubt, next_sample, poles
   end type rational_response_type
 
   interface

@@ -29,7 +29,7 @@ module gfb_shaft_drive
     real(wp) :: orbit_radius = 0.0_wp    !! of a sleeve whose place is given, about that [m]
     real(wp) :: orbit_frequency = 0.0_wp !! with the shaft's sense [rad/s]
   contains
-    procedure :: speed_at, angle_at, load_at, torque_at, orbit_at, jumps, settled
+    procedure, non_overridable :: speed_at, angle_at, load_at, torque_at, orbit_at, jumps, settled
   end type shaft_drive_type
 
 contains

@@ -137,21 +137,21 @@ module gfb_bearing
     type(tVec) :: left, right              !! work space: sizes of equations, inverted; sizes of unknowns
     integer, private :: changing(contact_name) = 0 !! contact that changes next: its rank from 1, its pad, its number there
   contains
-    procedure :: get_unknowns, set_unknowns
-    procedure :: add_up => add_up_unknowns
-    procedure :: summed => summed_values
-    procedure :: field => block_field
-    procedure :: upwinds, foil_surfaces, has_mirror_motions, mesh_nodes
-    procedure :: has_slow_unknowns
-    procedure :: local_size, film_nodes, film_pressure, put_pressure, film_force, is_meshed
-    procedure :: has_contacts
-    procedure :: gap => bearing_gap
-    procedure :: modulus => bearing_modulus
-    procedure :: solid_pressure
-    procedure :: position => bearing_position
-    procedure :: eccentricity => bearing_eccentricity
-    procedure :: shaft_place
-    procedure :: smallest_gap, local_force, reaction, force_scale, levers, equation_scale
+    procedure, non_overridable :: get_unknowns, set_unknowns
+    procedure, non_overridable :: add_up => add_up_unknowns
+    procedure, non_overridable :: summed => summed_values
+    procedure, non_overridable :: field => block_field
+    procedure, non_overridable :: upwinds, foil_surfaces, has_mirror_motions, mesh_nodes
+    procedure, non_overridable :: has_slow_unknowns
+    procedure, non_overridable :: local_size, film_nodes, film_pressure, put_pressure, film_force, is_meshed
+    procedure, non_overridable :: has_contacts
+    procedure, non_overridable :: gap => bearing_gap
+    procedure, non_overridable :: modulus => bearing_modulus
+    procedure, non_overridable :: solid_pressure
+    procedure, non_overridable :: position => bearing_position
+    procedure, non_overridable :: eccentricity => bearing_eccentricity
+    procedure, non_overridable :: shaft_place
+    procedure, non_overridable :: smallest_gap, local_force, reaction, force_scale, levers, equation_scale
     procedure :: begin_path => begin_bearing_path
     procedure :: next_change => next_bearing_change
     procedure :: cross_change => cross_bearing_change

@@ -52,8 +52,9 @@ module gfb_bearing_heat
     integer :: walls = 0             !! unknowns
     integer :: shafts = 1, channels = 0 !! unknowns of shaft and channel
   contains
-    procedure :: place_of_gas, place_of_foil, place_of_shaft, place_of_channel
-    procedure :: place_of_sleeve, place_of_slit, place_of_mean, last, grows, softens, closing
+    procedure, non_overridable :: place_of_gas, place_of_foil, place_of_shaft, place_of_channel
+    procedure, non_overridable :: place_of_sleeve, place_of_slit
+    procedure, non_overridable :: place_of_mean, last, grows, softens, closing
   end type film_heat_type
 
 contains

@@ -39,13 +39,13 @@ module gfb_bearing_system
   contains
     procedure :: evaluate => evaluate_bearing
     procedure :: linearise => linearise_bearing
-    procedure :: evaluate_at, linearise_at, is_open_at, shaft_column
+    procedure, non_overridable :: evaluate_at, linearise_at, is_open_at, shaft_column
     procedure :: settle => settle_bearing
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
-    procedure :: commit => commit_bearing
-    procedure :: return_to, find_motions
-    procedure :: destroy => destroy_bearing
+    procedure, non_overridable :: commit => commit_bearing
+    procedure, non_overridable :: return_to, find_motions
+    procedure, non_overridable :: destroy => destroy_bearing
   end type bearing_system_type
 
 contains

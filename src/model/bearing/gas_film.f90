@@ -65,17 +65,17 @@ module gfb_gas_film
     real(wp), allocatable :: past(:, :) !! (points, elements) rate of r h by earlier ones [Pa m/s]
     type(frozen_heat_type), allocatable :: frozen !! none: the gas has the temperature of its law
   contains
-    procedure :: put, put_shape, interference
-    procedure :: flow_at, cell_flow, shadow, factors_of, element_gap, softness_of
-    procedure :: gap => film_node_gap
-    procedure :: excess => film_excess
-    procedure :: is_open
-    procedure :: add_residual => film_residual
-    procedure :: add_flows => film_flows
-    procedure :: element_jacobian => film_element_jacobian
-    procedure :: add_shaft_column => film_shaft_column
-    procedure :: force => film_node_force
-    procedure :: stored => film_stored
+    procedure, non_overridable :: put, put_shape, interference
+    procedure, non_overridable :: flow_at, cell_flow, shadow, factors_of, element_gap, softness_of
+    procedure, non_overridable :: gap => film_node_gap
+    procedure, non_overridable :: excess => film_excess
+    procedure, non_overridable :: is_open
+    procedure, non_overridable :: add_residual => film_residual
+    procedure, non_overridable :: add_flows => film_flows
+    procedure, non_overridable :: element_jacobian => film_element_jacobian
+    procedure, non_overridable :: add_shaft_column => film_shaft_column
+    procedure, non_overridable :: force => film_node_force
+    procedure, non_overridable :: stored => film_stored
   end type gas_film_type
 
 contains

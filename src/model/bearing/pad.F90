@@ -43,8 +43,8 @@ module gfb_pad
     real(wp), allocatable, private :: distance(:)     !! (pairs) between them [m]
     real(wp), private :: solved = 1.0_wp      !! part of the width that is solved [1]
   contains
-    procedure :: add_pull, add_hold, hold_stiffness, add_tension, tension_block, lift, lift_rates
-    procedure :: pairs
+    procedure, non_overridable :: add_pull, add_hold, hold_stiffness, add_tension, tension_block, lift, lift_rates
+    procedure, non_overridable :: pairs
   end type free_edge_type
 
   !> Where a pad stands.
@@ -69,10 +69,10 @@ module gfb_pad
     integer :: first = 0, last = 0         !! local unknown of the bearing before the pad's, and their last
     integer :: first_node = 0, last_node = 0 !! the same of the film nodes of all pads
   contains
-    procedure :: gap => pad_gap
-    procedure :: loading
-    procedure :: force => pad_force
-    procedure :: unknown_scale, equation_scale, row_entries
+    procedure, non_overridable :: gap => pad_gap
+    procedure, non_overridable :: loading
+    procedure, non_overridable :: force => pad_force
+    procedure, non_overridable :: unknown_scale, equation_scale, row_entries
   end type pad_type
 
 contains

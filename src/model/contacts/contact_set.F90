@@ -36,9 +36,9 @@ module gfb_contact_set
     logical :: keeps_friction = .false.        !! what sticks keeps its friction whatever presses, to Coulomb's limit
     logical, allocatable :: closed(:)          !! along a step; before it as the contacts are linearised
   contains
-    procedure :: approach, next_change, add_penetration_rate, settle, settle_like, linearise_again
-    procedure :: drop_anchor, settle_at, add_forces, point_block, point_unknowns, commit
-    procedure :: friction_work, penalty_energy, state_of, is_open, pressing_force, law_of
+    procedure, non_overridable :: approach, next_change, add_penetration_rate, settle, settle_like, linearise_again
+    procedure, non_overridable :: drop_anchor, settle_at, add_forces, point_block, point_unknowns, commit
+    procedure, non_overridable :: friction_work, penalty_energy, state_of, is_open, pressing_force, law_of
   end type contact_set_type
 
 contains

@@ -38,7 +38,7 @@ module gfb_foil_momentum
     Vec, private :: way, force       !! work space: from there to a state; its inertia
     type(inner_motion_type) :: inner !! modes inside condensed pieces, where they have any
   contains
-    procedure :: begin, prepare, carry, add_force, add_stiffness, destroy
+    procedure, non_overridable :: begin, prepare, carry, add_force, add_stiffness, destroy
   end type foil_momentum_type
 
   !> Losses of the foils; none where they are not begun.
@@ -50,11 +50,11 @@ module gfb_foil_momentum
     Vec, private :: still               !! scaled unknowns without rates
     Vec, private :: way, force          !! work space: from there to a state; what is lost
   contains
-    procedure :: begin => begin_losses
-    procedure :: prepare => prepare_losses
-    procedure :: add_force => add_losses
-    procedure :: add_stiffness => add_viscosity
-    procedure :: destroy => destroy_losses
+    procedure, non_overridable :: begin => begin_losses
+    procedure, non_overridable :: prepare => prepare_losses
+    procedure, non_overridable :: add_force => add_losses
+    procedure, non_overridable :: add_stiffness => add_viscosity
+    procedure, non_overridable :: destroy => destroy_losses
   end type foil_losses_type
 
 contains

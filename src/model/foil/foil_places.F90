@@ -25,8 +25,8 @@ module gfb_foil_places
     integer, allocatable :: top_end(:), bump_end(:) !! (ranks) unknowns of the ranks so far
     integer :: top_shift = 0, bump_shift = 0 !! from this rank's own numbers, from 0, to the foil's, from 1
   contains
-    procedure :: of_top => number_of_top
-    procedure :: of_bumps => number_of_bumps
+    procedure, non_overridable :: of_top => number_of_top
+    procedure, non_overridable :: of_bumps => number_of_bumps
   end type foil_ranges_type
 
   real(wp), parameter :: soft_contact = 20.0_wp !! stiffness to begin with, over a bump's

@@ -24,12 +24,12 @@ module gfb_film_mesh
     !> s of the rows: z, 0 at the midplane, of a cylinder [m]
     real(wp), allocatable :: row_axial(:)
   contains
-    procedure :: stations => film_stations
-    procedure :: rows => film_rows
-    procedure :: nodes => film_mesh_nodes
-    procedure :: circumferential => film_circumferential
-    procedure :: axial => film_axial
-    procedure :: is_edge => film_is_edge
+    procedure, non_overridable :: stations => film_stations
+    procedure, non_overridable :: rows => film_rows
+    procedure, non_overridable :: nodes => film_mesh_nodes
+    procedure, non_overridable :: circumferential => film_circumferential
+    procedure, non_overridable :: axial => film_axial
+    procedure, non_overridable :: is_edge => film_is_edge
   end type film_mesh_type
 
 contains

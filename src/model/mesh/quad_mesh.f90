@@ -50,8 +50,8 @@ module gfb_quad_mesh
     !> x where z is a radius, of a flat mesh under a sector [m]
     real(wp) :: middle = 0.0_wp
   contains
-    procedure :: nodes => whole_nodes
-    procedure :: elements => whole_elements
+    procedure, non_overridable :: nodes => whole_nodes
+    procedure, non_overridable :: elements => whole_elements
   end type quad_mesh_type
 
 contains

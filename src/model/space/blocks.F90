@@ -27,7 +27,7 @@ module gfb_blocks
     integer, allocatable :: first_owned(:) !! (blocks + 1) the same of those that this rank owns
     integer, allocatable, private :: block_end(:, :) !! (0:ranks, blocks) unknowns of the ranks so far
   contains
-    procedure :: global_number, local_unknowns, create_matrix
+    procedure, non_overridable :: global_number, local_unknowns, create_matrix
   end type blocks_type
 
 contains

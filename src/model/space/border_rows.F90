@@ -19,8 +19,8 @@ module gfb_border_rows
     integer :: unknowns = 0        !! on all ranks, with the scalars
     logical :: last_rank = .false. !! this rank owns the scalars and their equations
   contains
-    procedure :: create_matrix, set_row, values, set_values, join, split
-    procedure, private :: inner
+    procedure, non_overridable :: create_matrix, set_row, values, set_values, join, split
+    procedure, non_overridable, private :: inner
   end type border_type
 
 contains

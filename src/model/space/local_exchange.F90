@@ -13,9 +13,9 @@ module gfb_local_exchange
     Vec, private :: local
     VecScatter, private :: ghosts
   contains
-    procedure :: get, put, add
-    procedure, private :: fill
-    procedure :: destroy
+    procedure, non_overridable :: get, put, add
+    procedure, non_overridable, private :: fill
+    procedure, non_overridable :: destroy
   end type local_exchange_type
 
 contains

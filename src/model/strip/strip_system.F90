@@ -58,8 +58,8 @@ module gfb_strip_system
     logical, private :: created = .false.
   contains
     procedure :: evaluate, linearise, find_motions, settle, begin_step, virtual_work, set_factor
-    procedure :: commit, contact_displacements, foil_solution, plate_travel, strain_energy
-    procedure :: stiffness_round_off
+    procedure, non_overridable :: commit, contact_displacements, foil_solution, plate_travel, strain_energy
+    procedure, non_overridable :: stiffness_round_off
   end type strip_system_type
 
 contains

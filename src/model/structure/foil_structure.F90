@@ -40,7 +40,7 @@ module gfb_foil_structure
     integer, allocatable :: column_part(:)   !! rank, from 1, of every column of elements
     logical :: created = .false.             !! the matrix is there
   contains
-    procedure :: unknown, numbers_at, natural_numbers, displacements, gather_forces, row_entries
+    procedure, non_overridable :: unknown, numbers_at, natural_numbers, displacements, gather_forces, row_entries
   end type foil_structure_type
 
 contains

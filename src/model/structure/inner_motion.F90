@@ -61,8 +61,8 @@ module gfb_inner_motion
     Vec, private :: left, right              !! these scales
     Vec, private :: drive, force             !! work space: one a mode; one an unknown
   contains
-    procedure :: begin, prepare, carry, add_force, add_stiffness, visit, destroy
-    procedure, private :: driven_by
+    procedure, non_overridable :: begin, prepare, carry, add_force, add_stiffness, visit, destroy
+    procedure, non_overridable, private :: driven_by
   end type inner_motion_type
 
 contains

@@ -25,7 +25,7 @@ module gfb_super_element
     Mat, private :: block_ii, block_ib, block_bi, block_bb
     Mat :: schur                              !! the complement as PETSc keeps it
   contains
-    procedure :: recover, condense_force, constraint_modes, interior_stiffness
+    procedure, non_overridable :: recover, condense_force, constraint_modes, interior_stiffness
   end type super_element_type
 
 contains

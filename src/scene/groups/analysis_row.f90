@@ -47,7 +47,7 @@ module gfb_analysis_row
     character(len=22) :: limit_result = '' !! its name among the results
     character(len=150) :: groups = ''   !! of the case file, where others have no use for them
   contains
-    procedure :: is_known, is_structure, takes, refusal
+    procedure, non_overridable :: is_known, is_structure, takes, refusal
   end type analysis_row_type
 
   !> What shows an analysis: a case file that can be run. No scene carries it along.

@@ -33,7 +33,8 @@ module gfb_foil_cases
     real(wp), allocatable :: by_bump(:)  !! from the smallest x on; not allocated: all have one [m]
     real(wp), allocatable :: by_strip(:) !! from the smallest z on; the same [m]
   contains
-    procedure :: read_value, read_by_bump, read_by_strip, each, smallest, mirrors, bump_key, key_in
+    procedure, non_overridable :: read_value, read_by_bump, read_by_strip
+    procedure, non_overridable :: each, smallest, mirrors, bump_key, key_in
   end type size_type
 
   integer, parameter, public :: fixed_edge_leading = 1

@@ -27,7 +27,7 @@ module gfb_foil_row
     !> why Young's modulus by temperature has no use; empty: it has one
     character(len=50) :: without_modulus = ''
   contains
-    procedure :: is_known, needs_bumps
+    procedure, non_overridable :: is_known, needs_bumps
   end type foil_row_type
 
   type(foil_row_type), parameter, public :: foil_unknown = foil_row_type()

@@ -71,7 +71,7 @@ module gfb_model_case
     integer :: crest_springs = springs_one_sided
     real(wp) :: spring_pitch = 0.0_wp            !! of springs at points; 0: along the lines [m]
   contains
-    procedure :: has_strips, has_local_springs
+    procedure, non_overridable :: has_strips, has_local_springs
   end type model_case_type
 
 contains

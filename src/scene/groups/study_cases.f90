@@ -154,7 +154,7 @@ module gfb_study_cases
     real(wp), allocatable :: tolerances(:)              !! one a key, or none [their units]
     type(parameter_type), allocatable :: parameter(:)   !! the keys, once they are checked
   contains
-    procedure :: asks
+    procedure, non_overridable :: asks
   end type sensitivity_case_type
 
   character(len=*), parameter :: axis_words(*) = ['x', 'y']

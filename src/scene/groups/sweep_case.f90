@@ -39,7 +39,7 @@ module gfb_sweep_case
     integer :: element = 0 !! of the list, or `every_element`; 0: no index is given
     integer :: acts_on = acts_on_nothing !! see `gfb_key_effect`; once it has been looked up
   contains
-    procedure :: label, is_gap
+    procedure, non_overridable :: label, is_gap
   end type swept_key_type
 
   !> The sweep.

@@ -66,7 +66,7 @@ module gfb_thermal_case
     real(wp) :: shaft_poissons_ratio = 0.0_wp       !! [1]
     type(modulus_law_type) :: modulus               !! of the foils over their temperature
   contains
-    procedure :: is_cooled, mirrors, has_way_out, growth
+    procedure, non_overridable :: is_cooled, mirrors, has_way_out, growth
   end type thermal_case_type
 
 contains

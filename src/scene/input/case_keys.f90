@@ -25,9 +25,10 @@ module gfb_case_keys
   !> The keys of a case file, kind by kind.
   type, extends(case_reader_type) :: case_keys_type
   contains
-    procedure :: real_key, real_vector_key, real_list_key, integer_key, logical_key, string_key
-    procedure :: choice_key, choice_or_keys_key, words_key, names_key
-    procedure, private :: take_numbers, has_no_use
+    procedure, non_overridable :: real_key, real_vector_key, real_list_key
+    procedure, non_overridable :: integer_key, logical_key, string_key
+    procedure, non_overridable :: choice_key, choice_or_keys_key, words_key, names_key
+    procedure, non_overridable, private :: take_numbers, has_no_use
   end type case_keys_type
 
 contains

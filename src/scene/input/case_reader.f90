@@ -29,10 +29,13 @@ module gfb_case_reader
     integer, private :: group_acts_on = acts_on_nothing !! where its keys do not say otherwise
     character(len=:), allocatable, private :: why_idle  !! no answer follows the next keys
   contains
-    procedure :: open_text, start_group, finish, report, complain, rule, refuse, warn, warn_of_line
-    procedure :: hint_lines, warning_lines, add_new, meant, holds, last_key_is_right, mistakes
-    procedure :: line_of_group, idle, act_on
-    procedure :: describe, begin_key, end_key, end_numbers, take_real, take_choice, complain_value
+    procedure, non_overridable :: open_text, start_group, finish, report
+    procedure, non_overridable :: complain, rule, refuse, warn, warn_of_line
+    procedure, non_overridable :: hint_lines, warning_lines, add_new, meant
+    procedure, non_overridable :: holds, last_key_is_right, mistakes
+    procedure, non_overridable :: line_of_group, idle, act_on
+    procedure, non_overridable :: describe, begin_key, end_key, end_numbers
+    procedure, non_overridable :: take_real, take_choice, complain_value
   end type case_reader_type
 
 contains

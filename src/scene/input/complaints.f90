@@ -21,7 +21,8 @@ module gfb_complaints
     integer :: count = 0                     !! mistakes found
     type(complaint_type), allocatable, private :: kept(:)
   contains
-    procedure :: add => add_complaint, add_new => add_new_complaints, report => report_complaints
+    procedure, non_overridable :: add => add_complaint, add_new => add_new_complaints
+    procedure, non_overridable :: report => report_complaints
   end type complaints_type
 
 contains

@@ -63,8 +63,9 @@ module gfb_key_book
     integer :: count = 0
     logical :: kept = .true. !! what is shown; else the file is read for its values alone
   contains
-    procedure :: add_group, add_key, place_of, group_line, look_up_real, check_names, numbers_shown
-    procedure :: echo, table, why_no_use
+    procedure, non_overridable :: add_group, add_key, place_of, group_line
+    procedure, non_overridable :: look_up_real, check_names, numbers_shown
+    procedure, non_overridable :: echo, table, why_no_use
   end type key_book_type
 
 contains

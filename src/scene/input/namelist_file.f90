@@ -24,8 +24,9 @@ module gfb_namelist_file
     integer :: step = 1          !! from element to element
     logical :: ranges = .false.  !! a section was typed, not one index
   contains
-    procedure :: place => section_place, size => section_size, holds => section_holds
-    procedure :: shown => section_shown
+    procedure, non_overridable :: place => section_place, size => section_size
+    procedure, non_overridable :: holds => section_holds
+    procedure, non_overridable :: shown => section_shown
   end type section_type
 
   !> A group as it stands in the file.
@@ -62,7 +63,7 @@ module gfb_namelist_file
     type(namelist_value_type), allocatable :: values(:)
     type(namelist_group_type), allocatable :: strays(:)  !! words outside groups, one a place
   contains
-    procedure :: group_name, key_name, value_text, value_shown, values_shown
+    procedure, non_overridable :: group_name, key_name, value_text, value_shown, values_shown
   end type namelist_file_type
 
 contains

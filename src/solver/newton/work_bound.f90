@@ -21,7 +21,7 @@ module gfb_work_bound
     real(wp) :: most_work = huge(1.0_wp) !! unknowns that it may factor, each time counted
     real(wp) :: work = 0.0_wp            !! so far
   contains
-    procedure :: begin, lift, is_reached, share, words
+    procedure, non_overridable :: begin, lift, is_reached, share, words
   end type work_bound_type
 
 contains
