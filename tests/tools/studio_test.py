@@ -696,10 +696,10 @@ class BrowserTest(Served):
         page = self.open("small.nml")
         pad = "document.querySelector('.beside-form .pad')?.getAttribute('d')"
         shown = "document.querySelector('.beside-form').textContent"
-        page.wait(f"{shown}.includes('clearance 20 um x 100')")
+        page.wait(f"{shown}.includes('clearance 20 um, drawn x 100')")
         before = page.run(pad)
         page.type("[data-key='bearing%clearance']", "1.25 mil")
-        page.wait(f"{shown}.includes('clearance 31.75 um x 100')")
+        page.wait(f"{shown}.includes('clearance 31.75 um, drawn x 100')")
         after = page.run(pad)
         self.assertNotEqual(after, before)
         page.type("[data-key='bearing%clearance']", "30 mils")

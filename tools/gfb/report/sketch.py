@@ -264,9 +264,8 @@ def draw_journal(bearing, with_side):
     if with_side:
         long = side_of_journal(drawing, bearing, scale)
         drawing.notes.append(("note", f"radius {1.0e3*bearing.radius:.4g} mm{long}"))
-    gaps = f"clearance {1.0e6*clearance:.4g} um x {larger:g}" if "bearing%clearance" in bearing.case else ""
-    drawn = [gaps] + [f"bumps {1.0e6*height:.4g} um x {taller:g}"]*bool(crests and height)
-    drawing.notes.append(("fine", f"drawn: {', '.join(filter(None, drawn))}"*any(drawn)))
+    for size, words, times in ((clearance*("bearing%clearance" in bearing.case), "clearance", larger), (height*bool(crests), "bumps", taller)):
+        drawing.notes.append(("fine", f"{words} {1.0e6*size:.4g} um, drawn x {times:g}"*bool(size)))
     return drawing
 
 
