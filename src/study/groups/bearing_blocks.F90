@@ -23,8 +23,8 @@ module gfb_bearing_blocks
   character(len=1), parameter :: axes(2) = ['x', 'y']
   character(len=*), parameter :: secants(2) = 'secant_stiffness_'//axes
 
-  !> What a group has found.
-  type, public :: bearing_block_type
+  !> What a group of ranks has found of a bearing.
+  type, public :: group_result_type
     !> numbers of its values in the whole sweep, or of its frequencies
     integer :: first = 1, last = 0
     integer :: status = 0          !! exit status that gfb would have had
@@ -39,14 +39,14 @@ module gfb_bearing_blocks
     real(wp) :: first_slope(2, 2) = 0.0_wp     !! where it begins [N m/rad]
     type(dynamics_record_type) :: dynamics !! coefficients at its points, onset of whirl
     type(grid_series_type) :: series       !! film and foils at its points
-  end type bearing_block_type
+  end type group_result_type
 
 contains
 
   !> Saves or restores a block.
   pure subroutine visit_block(archive, block)
     type(archive_type), intent(inout) :: archive !! that saves or restores
-    type(bearing_block_type), intent(inout) :: block !! written where the archive restores
+    type(group_result_type), intent(inout) :: block !! written where the archive restores
 
     call archive%visit('first', block%first)
     call archive%visit('last', block%last)
@@ -76,7 +76,7 @@ contains
   !> All rows in the sweep's order, counts from the sweep's first point on.
   subroutine merge_histories(scene, blocks, history)
     type(scene_type), intent(in) :: scene !! with the whole sweep
-    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
+    type(group_result_type), intent(in) :: blocks(:) !! in the sweep's order
     type(history_row_type), allocatable, intent(out) :: history(:) !! one row a point
     type(history_row_type) :: row
     integer :: i, k, iterations, factorizations ! of the blocks before
@@ -101,7 +101,7 @@ contains
   !> Whether a block begins with another answer than that to which the one before leads.
   function parts(scene, blocks, number)
     type(scene_type), intent(in) :: scene
-    type(bearing_block_type), intent(in) :: blocks(:)
+    type(group_result_type), intent(in) :: blocks(:)
     integer, intent(in) :: number !! of the block
     logical :: parts
 
@@ -159,7 +159,7 @@ contains
 
   !> The contacts of all points in the sweep's order.
   subroutine merge_arrays(blocks, arrays)
-    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
+    type(group_result_type), intent(in) :: blocks(:) !! in the sweep's order
     type(case_array_type), allocatable, intent(out) :: arrays(:) !! with all points
     real(wp), allocatable :: values(:, :)
     integer :: i, k, columns, rows
@@ -186,7 +186,7 @@ contains
 
   !> Film and foils at all points in the sweep's order.
   pure subroutine merge_series(blocks, series)
-    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
+    type(group_result_type), intent(in) :: blocks(:) !! in the sweep's order
     type(grid_series_type), intent(out) :: series !! of all points
     integer :: i
 
@@ -197,7 +197,7 @@ contains
 
   !> Coefficients of all points, and the first onset of whirl that any block has seen.
   pure subroutine merge_dynamics(blocks, record)
-    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
+    type(group_result_type), intent(in) :: blocks(:) !! in the sweep's order
     type(dynamics_record_type), intent(inout) :: record !! of one of them, gets those of all
     type(dynamics_point_type), allocatable :: all(:)
     integer :: i
@@ -216,7 +216,7 @@ contains
 
   !> Coefficients at all frequencies in their order; what else was found is the first block's.
   pure subroutine merge_frequencies(blocks, point)
-    type(bearing_block_type), intent(in) :: blocks(:) !! each with an answer
+    type(group_result_type), intent(in) :: blocks(:) !! each with an answer
     type(dynamics_point_type), intent(inout) :: point !! the first block's, gets all frequencies
     complex(wp), allocatable :: coefficient(:, :, :)
     integer :: i, first, last
@@ -240,7 +240,7 @@ contains
   subroutine add_origin(scene, groups, blocks, list)
     type(scene_type), intent(in) :: scene          !! with the whole sweep
     integer, intent(in) :: groups                  !! of ranks
-    type(bearing_block_type), intent(in) :: blocks(:) !! in the sweep's order
+    type(group_result_type), intent(in) :: blocks(:) !! in the sweep's order
     type(quantity_type), allocatable, intent(inout) :: list(:) !! what the files say of their origin
     character(len=:), allocatable :: words
     integer :: i
@@ -258,7 +258,7 @@ contains
   !> answer as that with which the second begins.
   function seam_words(scene, before, behind) result(words)
     type(scene_type), intent(in) :: scene !! with the whole sweep
-    type(bearing_block_type), intent(in) :: before, behind !! the seam
+    type(group_result_type), intent(in) :: before, behind !! the seam
     character(len=:), allocatable :: words
     character(len=name_length), allocatable :: compared(:)
     real(wp) :: one, other, difference

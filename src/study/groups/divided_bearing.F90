@@ -28,7 +28,7 @@ module gfb_divided_bearing
   use gfb_bearing_study, only: bearing_study_type
   use gfb_sweep_study, only: sweep_study_type
   use gfb_pool, only: pool_type, group_log_path, end_log
-  use gfb_bearing_blocks, only: bearing_block_type, visit_block, merge_histories, merge_arrays, merge_series, merge_dynamics, &
+  use gfb_bearing_blocks, only: group_result_type, visit_block, merge_histories, merge_arrays, merge_series, merge_dynamics, &
        merge_frequencies, add_origin, seam_words, place_text
   implicit none (type)
   private
@@ -44,7 +44,7 @@ contains
     integer, intent(out) :: status !! exit status of the program
     class(bearing_study_type), allocatable, target :: study
     type(run_context_type) :: own
-    type(bearing_block_type), allocatable :: mine, blocks(:)
+    type(group_result_type), allocatable :: mine, blocks(:)
     type(error_type), allocatable :: error
     real(wp) :: memory(1)
     integer :: writer, ends(2)
@@ -138,7 +138,7 @@ contains
     integer, intent(in) :: ends(2) !! of the block
     type(run_context_type), intent(inout) :: context !! of this group
     class(bearing_study_type), target, intent(inout) :: study
-    type(bearing_block_type), intent(inout) :: mine
+    type(group_result_type), intent(inout) :: mine
     type(error_type), allocatable, intent(out) :: error
     type(scene_type) :: own
 
@@ -175,7 +175,7 @@ contains
   subroutine take_block(study, points, block)
     class(bearing_study_type), intent(in) :: study
     integer, intent(in) :: points !! of the block, where it is one of a sweep
-    type(bearing_block_type), intent(inout) :: block
+    type(group_result_type), intent(inout) :: block
     integer :: found
     logical :: whole
 
@@ -206,7 +206,7 @@ contains
   subroutine log_failure(pool, error, mine)
     type(pool_type), intent(in) :: pool
     type(error_type), intent(in) :: error
-    type(bearing_block_type), intent(out) :: mine
+    type(group_result_type), intent(out) :: mine
     type(run_log_type) :: terminal
 
     mine%status = error%status
@@ -221,7 +221,7 @@ contains
   subroutine report_end(scene, pool, mine, failed)
     type(scene_type), intent(in) :: scene
     type(pool_type), intent(in) :: pool
-    type(bearing_block_type), intent(in) :: mine
+    type(group_result_type), intent(in) :: mine
     logical, intent(in) :: failed !! it has found nothing
 
     if (.not. scene%sweep%present) then
@@ -237,8 +237,8 @@ contains
   subroutine gather(pool, writer, mine, blocks)
     type(pool_type), intent(in) :: pool
     integer, intent(in) :: writer !! the group
-    type(bearing_block_type), intent(inout) :: mine
-    type(bearing_block_type), allocatable, intent(out) :: blocks(:) !! nothing in the other groups
+    type(group_result_type), intent(inout) :: mine
+    type(group_result_type), allocatable, intent(out) :: blocks(:) !! nothing in the other groups
     type(archive_type) :: archive
     type(archive_type), allocatable :: sent(:)
     integer :: i
@@ -260,7 +260,7 @@ contains
     type(pool_type), intent(in) :: pool
     real(wp), intent(in) :: memory !! of all ranks [B]
     class(bearing_study_type), target, intent(inout) :: study
-    type(bearing_block_type), intent(in) :: blocks(:)
+    type(group_result_type), intent(in) :: blocks(:)
     integer, intent(inout) :: status
     type(run_context_type) :: terminal
     type(bearing_result_type) :: result
@@ -304,7 +304,7 @@ contains
 
   !> Why not all blocks have their answers: the first one that has none says it, or one that was stopped.
   pure function reason_of(blocks) result(reason)
-    type(bearing_block_type), intent(in) :: blocks(:)
+    type(group_result_type), intent(in) :: blocks(:)
     type(reason_type) :: reason
     integer :: i
 
@@ -317,7 +317,7 @@ contains
   !> Which blocks end early, and why; and where those of a sweep do not fit together.
   subroutine show_failures(scene, blocks, log)
     type(scene_type), intent(in) :: scene
-    type(bearing_block_type), intent(in) :: blocks(:)
+    type(group_result_type), intent(in) :: blocks(:)
     type(run_log_type), intent(in) :: log
     character(len=:), allocatable :: words
     integer :: i, missing
