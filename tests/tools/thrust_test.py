@@ -28,7 +28,7 @@ def film_file(path):
         angle = numpy.radians(theta)
         file["VTKHDF/Points"] = numpy.column_stack([radius*numpy.cos(angle), radius*numpy.sin(angle), numpy.zeros(len(theta))])
         values = {"theta": angle, "pad": numpy.repeat([1.0, 2.0], STATIONS*ROWS), "pressure": 1.0e5 + 10.0*(theta % 180.0),
-                  "gap": 1.0e-5 + 1.0e-7*numpy.arange(len(theta)), "deflection": 0.0*theta}
+                  "gap": 1.0e-5 + 1.0e-7*(numpy.arange(len(theta))//ROWS), "deflection": 0.0*theta}
         for name, value in values.items():
             file[f"VTKHDF/PointData/{name}"] = value
             file[f"VTKHDF/PointData/{name}"].attrs["unit"] = {"theta": "rad", "pad": "1", "pressure": "Pa"}.get(name, "m")
@@ -81,6 +81,8 @@ class ThrustTest(unittest.TestCase):
         numpy.testing.assert_allclose(edges[0][:, 0], [20.0, 30.0, 40.0])
         numpy.testing.assert_allclose(edges[1][:, 0], [-20.0, -30.0, -40.0])
         self.assertIn("thinnest\n10 um", [text.get_text() for text in charts[1].texts])
+        ring_at = next(line.get_xydata() for line in charts[1].get_lines() if line.get_marker() == "o")
+        numpy.testing.assert_allclose(ring_at, [[40.0, 0.0]], atol=1.0e-9, err_msg="of nodes that are alike the outermost, as the log has it")
 
     def test_a_top_foil_is_drawn_in_its_plane_and_in_space(self):
         path = pathlib.Path(self.folder)/"two.top_foil_1.vtkhdf"

@@ -7,6 +7,7 @@ from gfb.plot.colours import around_zero, draw_bar, levels_of, look_of, round_nu
 from gfb.plot.film import ROUND_OFF, WORDS, readable
 from gfb.plot.foil import round_scale, shape_of
 from gfb.plot.scene import scene_of
+from gfb.report.thinnest import node_of_thinnest
 
 TRAVEL = 0.15  # of a pad's longer side: how far the picture moves the node that moves most, at most
 FLATTEST = 0.25  # of a box over its longest side
@@ -50,7 +51,8 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
             chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, extend=beyond, **shades)
             draw_outline(chart, points[nodes])
         if name == "gap":
-            thinnest = int(numpy.argmin(values))
+            pad = fields["pad"][...] if "pad" in fields else numpy.zeros(len(values))
+            thinnest = node_of_thinnest(values, fields["theta"][...], numpy.hypot(points[:, 0], points[:, 1]), pad, True)[0]
             chart.plot(points[thinnest, 0], points[thinnest, 1], "o", color="w", markeredgecolor="k", markersize=6.0, zorder=5)
             chart.text(0.5, 0.5, f"thinnest\n{values[thinnest]:.3g} {unit}", transform=chart.transAxes, ha="center", va="center",
                        fontsize=9)

@@ -53,14 +53,19 @@ def place_of_thinnest(stem, summary) -> Place | None:
         across = numpy.hypot(points[:, 0], points[:, 1])
     else:  # of the second bearing of a rotor, too, from its own midplane
         across = points[:, 2] - 0.5*(points[:, 2].min() + points[:, 2].max())
+    node, pads = node_of_thinnest(gap, theta, across, pad, is_ring)
+    return Place(float(theta[node]), float(across[node]), int(pads[0]) if len(pads) == 1 and numpy.ptp(pad) > 0 else 0, len(pads), is_ring)
+
+
+def node_of_thinnest(gap, theta, across, pad, is_ring) -> tuple[int, numpy.ndarray]:
+    """The node where a film is thinnest, as the log has it, and the pads that are as thin: of places that are alike the last along the
+    motion, which is the last in the file, and there the outermost of a ring, of a journal that nearest to the midplane, at +z."""
+    smallest = gap.min()
     alike = numpy.flatnonzero(gap <= smallest + SAME*abs(smallest))
     pads = numpy.unique(pad[alike])
-    # As the log has it: of places that are alike the last along the motion, which is the last in the file, and there the outermost of a
-    # ring, of a journal that nearest to the midplane, at +z.
     own = alike[pad[alike] == pads[0]]
     own = own[numpy.abs(theta[own] - theta[own[-1]]) <= SAME]
     if not is_ring:
         far = numpy.abs(across[own])
         own = own[far <= far.min() + SAME*numpy.ptp(across)]
-    node = own[numpy.argmax(across[own])]
-    return Place(float(theta[node]), float(across[node]), int(pads[0]) if len(pads) == 1 and numpy.ptp(pad) > 0 else 0, len(pads), is_ring)
+    return int(own[numpy.argmax(across[own])]), pads
