@@ -390,6 +390,8 @@ def check_side_by_side(checks, folder):
             command = [MPIEXEC, "-n", "2", *command]
         running.append(subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE))
     ended = [process.communicate(timeout=SECONDS)[1].decode() for process in running]
+    # Open MPI 5 complains of networks through which two ranks of one machine cannot reach each other.
+    ended = ["".join(line for line in said.splitlines(keepends=True) if "opal/mca/btl/tcp" not in line) for said in ended]
     checks.that("side by side: status 0", not any(process.returncode for process in running))
     checks.that(f"side by side: nothing on the error stream {''.join(ended)[:200]}", not any(ended))
     answers = [[line for line in (folder/str(number)/"case.summary").read_text(encoding="utf-8").splitlines()

@@ -35,7 +35,9 @@ def check_start(checks, folder):
     (folder/"case.nml").write_text(str(Case(CASE)), encoding="utf-8")
     (folder/"sweep.nml").write_text(str(Case(CASE | {"sweep": {"parameter": "load", "values": (20.0, 30.0)}})), encoding="utf-8")
     faults = [{f"OMPI_MCA_{name}": "nonsense"} for name in ("pml", "btl")]
-    faults += [{"OMPI_MCA_orte_tmpdir_base": NOWHERE, "TMPDIR": NOWHERE}]
+    of_folder = {"OMPI_MCA_orte_tmpdir_base": NOWHERE, "TMPDIR": NOWHERE}
+    if "OpenRTE" in subprocess.run([MPIEXEC, "--version"], capture_output=True, encoding="utf-8", check=False).stdout:  # Open MPI 4
+        faults += [of_folder]
     for settings in faults:
         for words in (("case.nml",), ("--version",), ("--groups", "1", "sweep.nml")):
             status, wrong = call(folder, *words, **settings)
@@ -44,8 +46,9 @@ def check_start(checks, folder):
     for settings in faults[:2]:
         status, wrong = call(folder, "case.nml", ranks=2, **settings)
         checks.that(f"{settings}, 2 ranks: status {status}", status != 0 and SAID in wrong)
-    status, wrong = call(folder, "case.nml", **faults[-1])
-    checks.that(f"  it names the folder: {wrong.strip()}", f"nothing can be written in {NOWHERE}" in wrong)
+    if of_folder in faults:
+        status, wrong = call(folder, "case.nml", **of_folder)
+        checks.that(f"  it names the folder: {wrong.strip()}", f"nothing can be written in {NOWHERE}" in wrong)
     checks.that("no results of these", not list(folder.glob("*.summary")))
 
 

@@ -181,7 +181,8 @@ class PadsTest(unittest.TestCase):
             z = 1.0e3*numpy.unique(file["contact/top/position_z"][...])
         wide = (LENGTH - (STRIPS - 1)*CUT)/STRIPS
         for chart in charts:
-            bands = [(band.xy[:, 1].min(), band.xy[:, 1].max()) for band in chart.patches]
+            boxes = [band.get_path().get_extents(band.get_patch_transform()) for band in chart.patches]
+            bands = [(box.y0, box.y1) for box in boxes]
             numpy.testing.assert_allclose(bands, [(-0.5*wide - CUT, -0.5*wide), (0.5*wide, 0.5*wide + CUT)])
             self.assertFalse(any(low + 1.0e-9 < place < high - 1.0e-9 for low, high in bands for place in z))
 

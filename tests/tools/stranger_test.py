@@ -166,6 +166,17 @@ class Settings(InStrangersFolder):
         self.call(GFB, "--output", "out", self.case, TMPDIR="short")
         self.assertEqual(list((self.folder/"short").iterdir()), [])
 
+    def test_libraries_begin_in_another_folder(self):
+        """What a library reads as it is loaded, before the program begins, it does not read in the current folder."""
+        source, library = self.place/"where.c", self.place/"where.so"
+        source.write_text('#include <stdio.h>\n#include <unistd.h>\n__attribute__((constructor)) static void begin(void)\n'
+                          '{ char here[4096]; fprintf(stderr, "loaded in %s\\n", getcwd(here, sizeof here)); }\n', encoding="utf-8")
+        subprocess.run(["gcc", "-shared", "-fPIC", "-o", library, source], check=True)
+        said = self.call(GFB, "--output", "out", self.case, LD_PRELOAD=str(library))
+        self.assertIn("loaded in /\n", said)
+        self.assertNotIn(f"loaded in {self.folder}", said)
+        self.assertTrue((self.folder/"out/case.summary").exists(), "the program is back in its folder")
+
     def test_libraries_of_the_folder(self):
         """The loader's list of folders has no empty place, which it would take for this one."""
         needed = re.findall(r"^\s*(lib\S+) =>", self.call("ldd", GFB), re.MULTILINE)

@@ -35,7 +35,7 @@ static int          is_alone       = 0;
 static const char yielding[] = "OMPI_MCA_mpi_yield_when_idle";
 static int        is_yielding = 0;
 
-#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
+#ifdef OMPI_MAJOR_VERSION
 /* What begins so was set by a launcher; a setting that is there, by a user who wants something of Open MPI. */
 static int is_launched(void)
 {
@@ -132,22 +132,76 @@ static void watch_start(void)
   starting = getpid();
 }
 
+#ifdef OMPI_MAJOR_VERSION
+static char folder_before[PATH_MAX]; /* what TMPDIR was; empty: nothing */
+static int  has_other_folder = 0;
+
+/* Another folder for MPI's temporary files, until it has started. */
+static void set_temporary_folder(const char *folder)
+{
+  const char *before = getenv("TMPDIR");
+
+  if (before && snprintf(folder_before, sizeof folder_before, "%s", before) >= (int)sizeof folder_before) return;
+  has_other_folder = setenv("TMPDIR", folder, 1) == 0;
+}
+#endif
+
 /* What a process needs that no launcher has started. */
 static void prepare_alone(void)
 {
-#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
+#ifdef OMPI_MAJOR_VERSION
   const char *const folders[] = {temporary_folder(), "/tmp"};
 
   if (is_launched()) {
-    is_yielding = !getenv(yielding) && setenv(yielding, "1", 1) == 0;
+    is_yielding = OMPI_MAJOR_VERSION < 5 && !getenv(yielding) && setenv(yielding, "1", 1) == 0;
     return;
   }
   for (size_t i = 0; !is_alone && i < sizeof folders/sizeof *folders; i++)
     is_alone = make_session(folders[i]);
+  if (OMPI_MAJOR_VERSION >= 5) { /* it crashes where it can make no folder */
+    if (!is_alone) {
+      end_of_start();
+      return;
+    }
+    set_temporary_folder(session);
+  }
   if (!is_alone) return;
   atexit(remove_session);
-  for (size_t i = 0; i < alone_settings; i++) setenv(alone[i][0], alone[i][1], 1);
+  for (size_t i = 0; OMPI_MAJOR_VERSION < 5 && i < alone_settings; i++) setenv(alone[i][0], alone[i][1], 1);
 #endif
+}
+
+/* Libraries that the program is linked with read settings as they are loaded, before main: UCX does where MPI is linked with it
+   (Open MPI 5 of Debian 13). The loader calls what stands in .preinit_array before any of them, and constructors of the program
+   after all: in between the process is in the root. */
+static int folder_at_load = -1;
+
+#define BEFORE_LIBRARIES __attribute__((no_sanitize("address", "undefined")))
+
+BEFORE_LIBRARIES static void leave_before_libraries(int count, char **words, char **environment)
+{
+  (void)count, (void)words, (void)environment;
+  if (access(".", X_OK) != 0) return;
+  folder_at_load = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
+  if (folder_at_load >= 0 && chdir("/") != 0) {
+    close(folder_at_load);
+    folder_at_load = -1;
+  }
+}
+
+__attribute__((section(".preinit_array"), used)) static void (*const leave_first)(int, char **, char **) = leave_before_libraries;
+
+__attribute__((constructor(101))) static void return_after_libraries(void)
+{
+  static const char sentence[] = "gfb: the folder in which it was started is closed\n";
+
+  if (folder_at_load < 0) return;
+  if (fchdir(folder_at_load) != 0) {
+    (void)!write(STDERR_FILENO, sentence, sizeof sentence - 1);
+    _Exit(status_machine);
+  }
+  close(folder_at_load);
+  folder_at_load = -1;
 }
 
 /* The current folder, which is left for the root; -1 where nothing in it can be opened by anybody's name. */
@@ -176,7 +230,7 @@ static void return_to_folder(int here)
   close(here);
 }
 
-/* What MPI loads reads settings in the current folder (UCX does, ucx.conf), which may be a stranger's: it starts in the root. */
+/* What MPI loads as it starts reads settings in the current folder (UCX does, ucx.conf), which may be a stranger's: it starts in the root. */
 void gfb_start_mpi(void)
 {
   int begun, provided, here;
@@ -233,6 +287,11 @@ PetscErrorCode gfb_start_slepc(MPI_Fint communicator, const char words[], size_t
 void gfb_started(void)
 {
   starting = 0;
+#ifdef OMPI_MAJOR_VERSION
+  if (has_other_folder && *folder_before) setenv("TMPDIR", folder_before, 1);
+  else if (has_other_folder) unsetenv("TMPDIR");
+  has_other_folder = 0;
+#endif
   for (size_t i = 0; is_alone && i < alone_settings; i++) unsetenv(alone[i][0]);
   if (is_yielding) unsetenv(yielding);
   is_yielding = 0;
