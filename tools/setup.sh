@@ -17,7 +17,8 @@ run_packages=(gfortran gcc libc6-dev cmake ninja-build pkg-config git libopenmpi
 # shellcheck disable=SC2034 # used by those who source this
 report_packages=(python3-numpy python3-h5py python3-matplotlib python3-jinja2)
 # shellcheck disable=SC2034
-studio_packages=("${report_packages[@]}" python3-venv python3-xarray util-linux ca-certificates)
+tool_packages=("${report_packages[@]}" python3-xarray)
+studio_packages=("${tool_packages[@]}" python3-venv util-linux ca-certificates)
 # shellcheck disable=SC2034
 test_packages=("${run_packages[@]}" python3-venv python3-numpy python3-h5py python3-matplotlib python3-xarray
   python3-scipy python3-jinja2 findent hunspell hunspell-en-gb

@@ -156,16 +156,18 @@ class PythonTest(unittest.TestCase):
     @slow
     def test_slow_design(self):
         case = gfb.Case(SMALL | {"rotor": {"mass": 2.0}})
-        said = []
-        filled = []
+        said, filled, verdicts = [], [], []
 
         def fill(so_far):  # a page takes a while to draw, and other parts end meanwhile
             filled.append(list(so_far.rows))
+            verdicts.append(so_far.verdict)
             time.sleep(0.3)
             so_far.page()
 
         found = gfb.design(case, self.folder, smallest_gap=8.0e-6, processes=2, tell=said.append, filled=fill)
         self.assertEqual([sum(row[1] == "not computed yet" for row in rows) for rows in filled], [6, 5, 4, 3, 2, 1, 0])
+        self.assertEqual([words.split(" parts")[0] for words in verdicts[:-1]], [f"Not finished, {done} of 7" for done in range(1, 7)])
+        self.assertEqual(verdicts[-1], found.verdict)
         self.assertEqual([part.name for part in found.parts if part.stem is None], ["lift_off"])
         self.assertTrue(all(part.question in " ".join(said) for part in found.parts if part.stem is not None))
         rows = {question: (answer, verdict) for question, answer, verdict, _ in found.rows}

@@ -170,13 +170,13 @@ class ReportTest(unittest.TestCase):
         rows = {words: (value, verdict, bad) for words, value, verdict, bad in glance(some, case)}
         self.assertEqual(rows["thinnest film"], ("4 um", "4 times the roughness", False))
         self.assertEqual(rows["load capacity"], ("15 N", "the load is 20 N: 0.75 times", True))
-        self.assertEqual(rows["critical mass"], ("0.25 kg", "the rotor has 0.5 kg: 0.5 times", True))
+        self.assertEqual(rows["critical mass"], ("0.25 kg", "this bearing carries 0.5 kg of the rotor: 0.5 times", True))
         self.assertEqual(rows["lift-off speed"], ("5,000 rpm", "the speed is 20,000 rpm: 4 times", False))
         self.assertEqual(rows["onset of whirl"], ("15,000 rpm", "the speed is 20,000 rpm: 0.75 times", True))
         self.assertEqual(rows["rotor's least damped mode"], ("100 Hz", "it grows", True))
         case["rotor%mass"], case["operation%load"] = 0.1, (-3.0, 4.0)
         rows = {words: (verdict, bad) for words, _, verdict, bad in glance(some, case)}
-        self.assertEqual((rows["load capacity"], rows["critical mass"]), (("the load is 5 N: 3 times", False), ("the rotor has 0.1 kg: 2.5 times", False)))
+        self.assertEqual((rows["load capacity"], rows["critical mass"]), (("the load is 5 N: 3 times", False), ("this bearing carries 0.1 kg of the rotor: 2.5 times", False)))
         drawn = sketch(some | row("eccentricity_x", -1.0e-5, "m") | row("eccentricity_y", 0.0, "m"), case)
         self.assertEqual((len(drawn["pads"]), drawn["thinnest"], drawn["centre"][2:]), (1, None, (162.0, 100.0)))
         self.assertEqual([path.rpartition(" L")[2] for look, _, path in drawn["shapes"] if look == "load line"], ["76.6,68.8"])  # towards (-3, 4), y up
@@ -230,7 +230,7 @@ class ReportTest(unittest.TestCase):
                                          "No limit is known for film."), words)
         self.assertEqual(signs, {("film", "? no limit known"), ("load", "✓ kept"), ("whirl", "✓ kept")})
         words, signs = verdict(film | mass, wanted | {"rotor": {"mass": 0.5}})
-        self.assertTrue(words.startswith("Whirl limits this bearing: critical mass 0.25 kg, the rotor has 0.5 kg: 0.5 of what is needed. Broken, too: film."), words)
+        self.assertTrue(words.startswith("Whirl limits this bearing: critical mass 0.25 kg, this bearing carries 0.5 kg of the rotor: 0.5 of what is needed. Broken, too: film."), words)
         self.assertEqual(signs, {("film", "✗ broken"), ("whirl", "✗ broken")})
         words, _ = verdict(film | row("growth_rate", 2.0, "1/s") | row("damping_ratio", -0.01, "1") | row("whirl_frequency", 200.0*math.pi, "rad/s"), {}, smallest_gap=3.0e-6)
         self.assertTrue(words.startswith("Whirl limits this bearing: rotor's least damped mode at 100 Hz, it grows with a damping ratio of -0.01."), words)

@@ -25,6 +25,7 @@ from gfb.case import Case, CaseError
 from gfb.design_work import Part, Progress, compute_all, tilt_words
 from gfb.report.answer import LAST_STATE, Results, carried_by, film_words
 from gfb.report.main import read_run, write_page
+from gfb.report.thinnest import SAME
 from gfb.report.verdict import NO_ANSWER, ONSET, Margin, compared, margins_of, not_computed, sentence
 from gfb.results import read_history
 from gfb.running import Result
@@ -73,6 +74,10 @@ class Design:
         point = self.runs.get("point")
         left = not_computed(Results(point["summary"], point["used"]), self.margins) if point else []
         self.verdict = sentence(self.margins, open_questions=left)
+        asked = [part for part in self.parts if part.case is not None]
+        done = sum(part.name in self.runs for part in asked)
+        if done < len(asked):  # what has not been looked at may break a limit
+            self.verdict = f"Not finished, {done} of {len(asked)} parts are done. {self.verdict}"
 
     def table(self) -> str:
         """The answers as a Markdown table."""
@@ -245,7 +250,7 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
             found.append(Margin(part.name.replace("_", "-"), part.question, NO_ANSWER))
         elif part.name == "directions":
             angles, films = column(run, "load_angle"), column(run, "minimum_gap")
-            worst = min(range(len(films)), key=films.__getitem__)
+            worst = first_of(films, min(films))
             found.append(compared("film", film_words(films[worst], f"under a load at {angles[worst] % 360.0:.0f} deg"),
                                   f"{1.0e6*gap:.3g} um are wanted", films[worst]/gap, "load from every direction"))
         elif part.name == "capacity":
@@ -276,10 +281,15 @@ def column(run: dict[str, Any], name: str) -> list[float]:
     return [float(value) for value in run["points"].get(name, ())]
 
 
+def first_of(values: Sequence[float], value: float) -> int:
+    """The first place of a value: pads that are alike have it once each, but for rounding."""
+    return next(i for i, one in enumerate(values) if abs(one - value) <= SAME*abs(value))
+
+
 def answer_directions(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
     """The direction in which the film is thinnest."""
     angles, films = column(run, "load_angle"), column(run, "minimum_gap")
-    worst, best = min(range(len(films)), key=films.__getitem__), max(range(len(films)), key=films.__getitem__)
+    worst, best = first_of(films, min(films)), first_of(films, max(films))
     return [(question, film_words(films[worst], f"with it at {angles[worst] % 360.0:.0f} deg"),
              f"{1.0e6*films[best]:.4g} um at {angles[best] % 360.0:.0f} deg", False)]
 

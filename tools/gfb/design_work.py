@@ -101,7 +101,7 @@ class Progress:
 
 def duration(seconds: float) -> str:
     """Seconds, or minutes, for a reader."""
-    return f"{seconds/60.0:.1f} min" if seconds >= 100.0 else f"{seconds:.2g} s"
+    return f"{seconds/60.0:.1f} min" if seconds >= 99.5 else f"{seconds:.2g} s"
 
 
 def compute_all(parts: Sequence[Part], stem_of: Callable[[Part], pathlib.Path], processes: int, gfb: PathLike | None, progress: Progress,

@@ -118,6 +118,7 @@ contains
     integer :: i
 
     do i = 1, most_trials
+      call newton%log%is_within('onset of whirl, trial '//text(i))
       if (abs(bracket%at_high) <= 0.0_wp .or. abs(bracket%high - bracket%low) <= tolerance*abs(bracket%high)) return
       trial = bracket%trial()
       target = bearing%point

@@ -126,7 +126,7 @@ def whirl(results: Results) -> Iterator[Margin]:
     frequency = results.value("whirl_frequency") or results.value("axial_frequency")
     if critical is not None:
         words = f"critical mass {critical:.4g} kg"
-        yield compared("whirl", words, f"the rotor has {mass:.4g} kg", critical/mass, result="critical_mass") if mass else Margin("whirl", words)
+        yield compared("whirl", words, f"this bearing carries {mass:.4g} kg of the rotor", critical/mass, result="critical_mass") if mass else Margin("whirl", words)
     if growth is not None:
         how = "" if frequency is None else f" at {frequency/(2.0*math.pi):.4g} Hz"
         ratio = "" if damped is None else f" with a damping ratio of {damped:.3g}"
