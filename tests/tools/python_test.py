@@ -181,7 +181,7 @@ class PythonTest(unittest.TestCase):
         self.assertAlmostEqual(films[0]/plain["minimum_gap"], 1.0, delta=1.0e-9)
         self.assertIn(f"thinnest film {1.0e6*films.min():.4g} um", rows["load from every direction"][0])
         capacity = read_history(self.folder/"design_capacity.h5")
-        self.assertIn(f"{capacity['load_capacity'][2]/20.0:.3g} times the 20 N", rows["load capacity over the speed, to a film of 8 um"][1])
+        self.assertIn(f"the load is 20 N: {capacity['load_capacity'][2]/20.0:.3g} times", rows["load capacity over the speed, to a film of 8 um"][1])
         self.assertIn("no &shaft_contact", rows["lift-off speed"][1])
         unbalance = gfb.Case.read(self.folder/"design_orbit.nml")["unbalance%unbalance"]
         self.assertAlmostEqual(unbalance/(2.0*2.5e-3/(20000.0*numpy.pi/30.0)), 1.0, delta=1.0e-12)
