@@ -11,7 +11,8 @@ module gfb_key_differences
                             acts_on_sheets, acts_on_shapes
   implicit none (type, external)
   private
-  public :: difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
+  public :: difference_of, vibration_difference_of, present_value, step_of, changed_point
+  public :: keeps_meshes, changes_foils
 
   !> part of what is changed, where little is lost to rounding [1]
   real(wp), parameter :: small = 4.0e-6_wp
@@ -56,6 +57,15 @@ contains
       return
     end select
   end function difference_of
+
+  !> The same for small vibrations, where stiff contacts have most of what is rounded: steps are
+  !> longer, but where they move contacts themselves hardly so, as none may open or close within.
+  pure function vibration_difference_of(key) result(difference)
+    type(swept_key_type), intent(in) :: key !! that is changed
+    type(difference_type) :: difference
+
+    if (key%acts_on == acts_on_contacts) difference = difference_type(10.0_wp*small, central)
+  end function vibration_difference_of
 
   !> Value of a parameter at the answer: the sweep's where it changes that very key.
   pure function present_value(scene, parameter, point, at) result(value)

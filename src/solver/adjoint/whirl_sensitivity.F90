@@ -43,8 +43,8 @@ module gfb_whirl_sensitivity
   use gfb_whirl, only: whirl_type
   use gfb_planar_eigenvalues, only: whirl_rates
   use gfb_corrected_solve, only: solve_corrected
-  use gfb_key_effect, only: acts_on_point, acts_on_contacts
-  use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils, by_answer
+  use gfb_key_effect, only: acts_on_point
+  use gfb_key_differences, only: difference_type, vibration_difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils, by_answer
   implicit none (type)
   private
   public :: derive_whirl, derive_coefficients
@@ -398,9 +398,7 @@ contains
     integer :: steps
 
     value = present_value(scene, parameter, bearing%point, at)
-    difference = difference_of(parameter%key)
-    ! Long steps where nothing of contacts changes, for stiff ones have most of what is rounded.
-    if (parameter%key%acts_on /= acts_on_contacts .and. difference%part < by_answer(1)%part) difference = by_answer(1)
+    difference = vibration_difference_of(parameter%key)
     if (parameter%key%is_gap()) difference = of_gap
     step = step_of(scene, parameter%key, difference, value)
     problem = ''

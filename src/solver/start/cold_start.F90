@@ -23,7 +23,7 @@ module gfb_cold_start
   use gfb_heat_start, only: carry_heat, show_heat
   use gfb_start_problem, only: search_request_type, start_problem_type, drop_bearing, count_spent
   use gfb_saved_state, only: saved_state_type
-  use gfb_search_stages, only: stages_of, before_heat, start_pressed, take_stages, stage_interference
+  use gfb_search_stages, only: stages_of, take_heat_away, start_pressed, take_stages, stage_interference
   use gfb_smaller_start, only: find_smaller, find_between, lies_between
   use gfb_answer_transfer, only: transfer_answer
   use gfb_partitioned, only: partitioned_type, create_partitioned, follow_partitioned
@@ -36,7 +36,7 @@ module gfb_cold_start
 
   !> A mesh between the coarsest and the scene's, with its equations.
   type :: mesh_type
-    type(scene_type) :: scene
+    type(scene_type), allocatable :: scene ! large
     type(bearing_plan_type) :: plan
     type(bearing_system_type), pointer :: bearing => null() !! null: not built yet
     type(newton_type), pointer :: newton => null()
@@ -109,7 +109,7 @@ contains
     spent_before = 0
     if (newton%created) call drop_bearing(bearing, newton, spent_before)
     allocate (mesh(most_meshes))
-    mesh(1)%scene = request%scene
+    allocate (mesh(1)%scene, source=request%scene)
     mesh(1)%plan = request%plan
     mesh(1)%bearing => bearing
     mesh(1)%newton => newton
@@ -118,6 +118,7 @@ contains
     left = [1]
     meshes = 1
     do while (meshes < most_meshes)
+      allocate (mesh(meshes + 1)%scene)
       call find_smaller(mesh(meshes)%scene, mesh(meshes)%plan, request%target, smaller, mesh(meshes + 1)%scene, mesh(meshes + 1)%plan)
       if (.not. smaller) exit
       meshes = meshes + 1
@@ -136,6 +137,7 @@ contains
                                 text(here%plan%axial)//' first:')
           here%divided = .true.
           meshes = meshes + 1
+          if (.not. allocated(mesh(meshes)%scene)) allocate (mesh(meshes)%scene)
           call find_between(here%scene, here%plan, mesh(meshes)%scene, mesh(meshes)%plan)
           left = [left, meshes]
           cycle
@@ -168,6 +170,7 @@ contains
     type(mesh_type), intent(inout) :: mesh
     logical, intent(in) :: hot !! with heat
     type(error_type), allocatable, intent(out) :: error
+    type(scene_type), allocatable :: cold
     integer :: spent(3)
 
     if (mesh%newton%created) then
@@ -179,7 +182,8 @@ contains
     if (hot) then
       call build_bearing(mesh%scene, mesh%plan, mesh%bearing, error)
     else
-      call build_bearing(before_heat(mesh%scene, request%target), mesh%plan, mesh%bearing, error)
+      call take_heat_away(mesh%scene, request%target, cold)
+      call build_bearing(cold, mesh%plan, mesh%bearing, error)
     end if
     if (allocated(error)) return
     call create_newton(mesh%newton, mesh%bearing, 'bearing_', request%tolerances, request%log)
@@ -255,7 +259,7 @@ contains
     end if
     allocate (problem)
     call set_problem(request, mesh, problem)
-    cold = before_heat(mesh%scene, request%target)
+    call take_heat_away(mesh%scene, request%target, cold)
     problem%scene => cold
     call search_cold(mesh, helper, problem, between)
     if (between .or. problem%from_smaller .or. .not. mesh%report%converged()) return

@@ -28,7 +28,7 @@ module gfb_search_stages
   use gfb_branch_search, only: seek_branch
   implicit none (type)
   private
-  public :: stages_of, before_heat, start_pressed, take_stages, close_interference
+  public :: stages_of, take_heat_away, start_pressed, take_stages, close_interference
 
   integer, parameter, public :: stage_interference = 1, stage_heat = 2, stage_edges = 3 !! in their order
 
@@ -61,21 +61,21 @@ contains
   end function stages_of
 
   !> A scene before its stage of heat: at ambient temperature, where its shaft is as its speed has made it grow; edges that are lifted
-  !> come after heat. One without heat as it is.
-  function before_heat(scene, target) result(cold)
+  !> come after heat. One without heat as it is. Allocated, as scenes are large.
+  subroutine take_heat_away(scene, target, cold)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(operating_point_type), intent(in) :: target !! of it
-    type(scene_type) :: cold
+    type(scene_type), allocatable, intent(out) :: cold
     type(film_heat_type) :: heat
 
-    cold = scene
+    allocate (cold, source=scene)
     if (.not. scene%thermal%present) return
     heat = heat_of(scene)
     cold%thermal%present = .false.
     cold%operation%leading_edge_lift = [real(wp) ::]
     cold%operation%leading_edge_lift_edge = [real(wp) ::]
     cold%bearing%interference = cold%bearing%interference + heat%centrifugal*target%speed**2
-  end function before_heat
+  end subroutine take_heat_away
 
   !> From an answer through stages, until one of them has none.
   subroutine take_stages(stages, problem, report)

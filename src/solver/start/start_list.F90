@@ -222,7 +222,7 @@ contains
   subroutine try_lighter_load(problem, report)
     type(start_problem_type), intent(inout) :: problem
     type(path_report_type), intent(inout) :: report !! in: of the starts before; replaced by that of an answer
-    type(start_problem_type) :: easier
+    type(start_problem_type), allocatable :: easier ! large
     type(path_report_type) :: light
     type(saved_state_type) :: refused
     logical :: ends
