@@ -1,4 +1,4 @@
-!> Dense linear equations of the beam models, by LAPACK.
+!> Dense linear equations of beams and shafts, by LAPACK.
 module gfb_linear_solve
   use gfb_kinds, only: wp
   implicit none (type, external)
@@ -26,6 +26,11 @@ module gfb_linear_solve
     end subroutine dgesv
   end interface
 
+  !> Equations of any matrix, for one right side or several.
+  interface solve_general
+    procedure :: solve_one, solve_several
+  end interface solve_general
+
 contains
 
   !> Solves equations whose matrix is symmetric and positive definite; `.false.` if it is not.
@@ -42,20 +47,33 @@ contains
     solved = info == 0
   end subroutine solve_positive
 
-  !> Solves equations of any matrix; `.false.` if it is singular.
-  pure subroutine solve_general(matrix, right_side, solved)
+  !> Solves equations of any matrix for one right side; `.false.` if it is singular.
+  pure subroutine solve_one(matrix, right_side, solved)
     real(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
     real(wp), intent(inout) :: right_side(:) !! (n): in the right side, out the solution [SI]
     logical, intent(out) :: solved !! the matrix is regular
-    real(wp) :: factor(max(1, size(matrix, 1)), size(matrix, 1)) ! the matrix, then its factors [SI]
-    real(wp) :: column(max(1, size(matrix, 1)), 1) ! the right side, then the solution [SI]
+    real(wp) :: column(size(matrix, 1), 1) ! the right side, then the solution [SI]
+
+    column(:, 1) = right_side
+    call solve_several(matrix, column, solved)
+    right_side = column(:, 1)
+  end subroutine solve_one
+
+  !> The same for several right sides.
+  pure subroutine solve_several(matrix, right_sides, solved)
+    real(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
+    real(wp), intent(inout) :: right_sides(:, :) !! (n, m), in and out [SI]
+    logical, intent(out) :: solved !! the matrix is regular
+    real(wp), allocatable :: factor(:, :)  ! the matrix, then its factors [SI]
+    real(wp), allocatable :: columns(:, :) ! right sides, then solutions [SI]
     integer :: pivots(size(matrix, 1)), n, info
 
     n = size(matrix, 1)
+    allocate (factor(max(1, n), n), columns(max(1, n), size(right_sides, 2)))
     factor(1:n, :) = matrix
-    column(1:n, 1) = right_side
-    call dgesv(n, 1, factor, max(1, n), pivots, column, max(1, n), info)
-    right_side = column(1:n, 1)
+    columns(1:n, :) = right_sides
+    call dgesv(n, size(columns, 2), factor, max(1, n), pivots, columns, max(1, n), info)
+    right_sides = columns(1:n, :)
     solved = info == 0
-  end subroutine solve_general
+  end subroutine solve_several
 end module gfb_linear_solve
