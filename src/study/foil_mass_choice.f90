@@ -9,7 +9,7 @@ module gfb_foil_mass_choice
   use gfb_motion_cases, only: frequencies_at, mass_on, mass_off
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type
-  use gfb_vibration_equations, only: foil_inertia_type, destroy_inertia
+  use gfb_foil_inertia, only: foil_inertia_type, destroy_inertia
   use gfb_foil_weighing, only: give_mass, give_momentum
   implicit none (type, external)
   private

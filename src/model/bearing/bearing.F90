@@ -25,6 +25,7 @@ module gfb_bearing
   use gfb_bearing_heat, only: film_heat_type, moduli_at
   use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_spring_history, only: foil_dampers_type
+  use gfb_vibration_equations, only: vibration_equations_type
   implicit none (type)
   private
   public :: places_of
@@ -59,6 +60,7 @@ module gfb_bearing
   !>     of what pads are        take_state, add_jacobian: softness
   !>     a force over time       prepare_step, add_force, add_stiffness, end_motion: losses
   !>     ... with a memory       end_step and visit, too: momentum; recall_step where pads hold it: dampers
+  !>     ... by the frequency    add_vibration, the same force in a small vibration: losses, dampers
   type, public :: bearing_block_type
     character(len=8) :: name = ''
     ! its unknowns: asked by the numbering, scales, searches and transfers to a finer mesh
@@ -85,6 +87,8 @@ module gfb_bearing
     procedure(time_step), pointer, nopass :: prepare_step => null()
     procedure(time_step), pointer, nopass :: end_step => null()
     procedure(block_end), pointer, nopass :: end_motion => null()
+    ! asked by small vibrations: what depends on the frequency
+    procedure(vibration_parts), pointer, nopass :: add_vibration => null()
     ! asked by restart files
     procedure(block_visit), pointer, nopass :: visit => null()
     procedure(recalled_step), pointer, nopass :: recall_step => null()
@@ -134,6 +138,8 @@ module gfb_bearing
     logical :: last_rank = .false.         !! this rank owns the shaft's equations
     real(wp), allocatable :: unknown_scale(:) !! of the local unknowns, in SI
     type(local_exchange_type) :: exchange  !! between local unknowns and vectors
+    !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
+    ISLocalToGlobalMapping, allocatable :: numbers(:)
     type(tVec) :: left, right              !! work space: sizes of equations, inverted; sizes of unknowns
     integer, private :: changing(contact_name) = 0 !! contact that changes next: its rank from 1, its pad, its number there
   contains
@@ -263,6 +269,14 @@ module gfb_bearing
       class(bearing_type), intent(inout) :: bearing
       type(natural_order_type), intent(in) :: order !! of its state
     end subroutine block_visit
+
+    !> Adds to the parts of a linearised bearing that the frequency weights.
+    subroutine vibration_parts(bearing, equations)
+      import :: bearing_type, vibration_equations_type
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing !! at its answer
+      type(vibration_equations_type), intent(inout) :: equations !! that know what foils do under vibration
+    end subroutine vibration_parts
 
     !> The motion is over: its equations are those of a steady state again; may be called twice.
     subroutine block_end(bearing)

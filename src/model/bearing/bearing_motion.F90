@@ -1,12 +1,14 @@
 #include "gfb_petsc.h"
-!> A bearing over a step of time, through its list of blocks: the step is prepared, has an end, is saved, is recalled.
+!> A bearing in motion, through its list of blocks. Over a step of time: the step is prepared, has an end, is saved, is recalled. In
+!> a small vibration: blocks add the parts of its equations that depend on the frequency.
 !>
 !> Blocks that move foils alone: they have no unknowns, but forces, or a memory, over a step of time, and do nothing until that
 !> is begun. Momentum and losses of meshed foils are forces in scaled vectors; dampers and Maxwell arms of a foundation are drag and
-!> pull of its springs, which the foil's own equations have.
+!> pull of its springs, which the foil's own equations have. In a vibration both are parts of its equations by the same laws.
 !>
 !> Two things that change in time are no blocks. The gas that films store is a part of each film's own equations
-!> (`past` of `gfb_gas_film`), and the shaft's inertia a part of its operating point: both are the march's (`gfb_time_march`).
+!> (`past` of `gfb_gas_film`), and the shaft's inertia a part of its operating point: both are the march's (`gfb_time_march`). In a
+!> vibration the gas is a part like those of blocks.
 module gfb_bearing_motion
   use petscmat
   use gfb_kinds, only: wp
@@ -16,10 +18,13 @@ module gfb_bearing_motion
   use gfb_text, only: text
   use gfb_spring_history, only: begin_springs, damp_springs, follow_springs, recall_springs
   use gfb_bearing, only: bearing_type, bearing_block_type
+  use gfb_film_rates, only: fill_film, fill_springs, squeeze, squeeze_by_gap, flow_by_gap
+  use gfb_vibration_law, only: by_rate, by_springs, by_local_springs, by_rate_of_local_springs
+  use gfb_vibration_equations, only: vibration_equations_type, add_part
   implicit none (type)
   private
   public :: momentum_block, losses_block, dampers_block, begin_dampers
-  public :: prepare_step, end_step, recall_step, visit_motion, end_motion
+  public :: prepare_step, end_step, recall_step, visit_motion, end_motion, add_vibrations
 
 contains
 
@@ -80,6 +85,20 @@ contains
       if (associated(bearing%block(k)%end_motion)) call bearing%block(k)%end_motion(bearing)
     end do
   end subroutine end_motion
+
+  !> The parts of the equations of small vibrations: of the gas that films store, and of all blocks.
+  subroutine add_vibrations(bearing, equations)
+    class(bearing_type), intent(in) :: bearing !! at its answer
+    type(vibration_equations_type), intent(inout) :: equations !! with the steady ones, and what foils do under vibration
+    Mat :: matrix
+    integer :: k
+
+    call add_part(by_rate, equations, matrix)
+    call fill_film(bearing, squeeze, matrix)
+    do k = 1, size(bearing%block)
+      if (associated(bearing%block(k)%add_vibration)) call bearing%block(k)%add_vibration(bearing, equations)
+    end do
+  end subroutine add_vibrations
 
   !> The inertia of meshed foils.
   pure subroutine momentum_block(block)
@@ -151,6 +170,7 @@ contains
     block%add_stiffness => losses_stiffness
     block%prepare_step => prepare_losses
     block%end_motion => end_losses
+    block%add_vibration => losses_vibration
   end subroutine losses_block
 
   !> What is lost at a state.
@@ -175,6 +195,17 @@ contains
     call bearing%losses%prepare(weight, now, before)
   end subroutine prepare_losses
 
+  !> The elastic forces that lose. Each unknown of a mesh relaxes by itself, at a rate next to that of all others.
+  subroutine losses_vibration(bearing, equations)
+    class(bearing_type), intent(in) :: bearing
+    type(vibration_equations_type), intent(inout) :: equations
+    Mat :: matrix
+
+    if (.not. (equations%vibration%dissipates() .and. bearing%is_meshed())) return
+    call add_part(by_springs, equations, matrix, crowds=.true.)
+    call fill_springs(bearing, matrix)
+  end subroutine losses_vibration
+
   !> Foils without losses.
   subroutine end_losses(bearing)
     class(bearing_type), intent(inout) :: bearing
@@ -191,6 +222,7 @@ contains
     block%recall_step => recall_dampers
     block%visit => visit_dampers
     block%end_motion => end_dampers
+    block%add_vibration => dampers_vibration
   end subroutine dampers_block
 
   !> Dampers come beside the springs of all pads, which rest.
@@ -315,6 +347,24 @@ contains
     end do
     PetscCallA(VecDestroy(vector, ierr))
   end subroutine visit_local
+
+  !> The springs of a foundation: those of stations have unknowns, local ones change what films store and let flow by their gap.
+  subroutine dampers_vibration(bearing, equations)
+    class(bearing_type), intent(in) :: bearing
+    type(vibration_equations_type), intent(inout) :: equations
+    Mat :: matrix
+
+    if (.not. equations%vibration%dissipates() .or. bearing%is_meshed()) return
+    if (bearing%pad(1)%foil%has_local_springs()) then
+      call add_part(by_local_springs, equations, matrix)
+      call fill_film(bearing, flow_by_gap, matrix)
+      call add_part(by_rate_of_local_springs, equations, matrix)
+      call fill_film(bearing, squeeze_by_gap, matrix)
+    else
+      call add_part(by_springs, equations, matrix)
+      call fill_springs(bearing, matrix)
+    end if
+  end subroutine dampers_vibration
 
   !> Springs without a memory; their last drag and pull stay the foil's.
   subroutine end_dampers(bearing)

@@ -1,12 +1,14 @@
 #include "gfb_petsc.h"
 !> Numbers and sizes of a bearing's unknowns: of each pad film and foil, fields and scalars of the blocks, the shaft.
 module gfb_bearing_numbering
+  use petscmat
+  use gfb_petsc_kinds, only: pint
   use gfb_petsc_session, only: this_rank, rank_count
   use gfb_blocks, only: block_type, create_blocks
   use gfb_bearing, only: bearing_type, bearing_block_type, places_of
   implicit none (type)
   private
-  public :: number_unknowns, scale_unknowns
+  public :: number_unknowns, scale_unknowns, create_numbers, number_by
 
 contains
 
@@ -98,4 +100,32 @@ contains
     end do
     bearing%unknown_scale(bearing%first_shaft + 1:) = bearing%clearance/bearing%levers()
   end subroutine scale_unknowns
+
+  !> The numbers by which each pad fills the matrix: as if it were the only one.
+  subroutine create_numbers(bearing)
+    class(bearing_type), intent(inout) :: bearing !! numbered, with its list of blocks
+    integer(pint), allocatable :: global(:)
+    PetscErrorCode :: ierr
+    integer :: i
+
+    if (size(bearing%pad) == 1 .and. all(bearing%block%fields + bearing%block%scalars == 0)) return
+    allocate (bearing%numbers(0:size(bearing%pad)))
+    do i = 0, size(bearing%pad)
+      global = bearing%blocks%global
+      if (i > 0) global = [global(bearing%pad(i)%first + 1:bearing%pad(i)%last), &
+                           global(bearing%first_scalar + 1:)]
+      PetscCallA(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1_pint, size(global, kind=pint), global, PETSC_COPY_VALUES, bearing%numbers(i), ierr))
+    end do
+  end subroutine create_numbers
+
+  !> From now on a matrix is filled by the local numbers of a pad, behind them scalars' and the shaft's; 0: by the bearing's.
+  subroutine number_by(bearing, i, matrix)
+    class(bearing_type), intent(in) :: bearing !! pads and shaft
+    integer, intent(in) :: i !! of the pad, or 0
+    Mat, intent(in) :: matrix !! like the bearing's
+    PetscErrorCode :: ierr
+
+    if (.not. allocated(bearing%numbers)) return
+    PetscCallA(MatSetLocalToGlobalMapping(matrix, bearing%numbers(i), bearing%numbers(i), ierr))
+  end subroutine number_by
 end module gfb_bearing_numbering

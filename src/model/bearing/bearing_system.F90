@@ -19,7 +19,7 @@ module gfb_bearing_system
   use gfb_local_exchange, only: create_exchange
   use gfb_film_heat, only: shaft_places
   use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type, places_of
-  use gfb_bearing_numbering, only: number_unknowns, scale_unknowns
+  use gfb_bearing_numbering, only: number_unknowns, scale_unknowns, create_numbers, number_by
   use gfb_bearing_motion, only: momentum_block, losses_block, dampers_block, end_motion
   use gfb_heat_block, only: heat_block
   use gfb_shaft_block, only: shaft_block, shaft_of
@@ -27,14 +27,12 @@ module gfb_bearing_system
   use gfb_foil_rows, only: add_of_foil, create_bearing_motions
   implicit none (type)
   private
-  public :: create_bearing_system, set_up_equations, free_equations, number_by, bearing_order, path_order, visit_bearing, visit_switches
+  public :: create_bearing_system, set_up_equations, free_equations, bearing_order, path_order, visit_bearing, visit_switches
 
   !> A bearing and its equations.
   type, extends(bearing_type), public :: bearing_system_type
     type(term_type), allocatable, private :: term(:) !! of each pad's equations
     type(tMat), private :: constant    !! what of the matrix never changes, in SI
-    !> numbers of a pad's local unknowns and of the shaft, where there are several pads; 0: of the bearing's
-    ISLocalToGlobalMapping, allocatable, private :: numbers(:)
     type(cost_events_type), private :: events !! of PETSc's log
   contains
     procedure :: evaluate => evaluate_bearing
@@ -155,39 +153,11 @@ contains
     if (bearing%last_rank) entries = [entries, spread(int(bearing%unknowns, pint), 1, block%scalars)]
   end subroutine make_room
 
-  !> The numbers by which each pad fills the matrix: as if it were the only one.
-  subroutine create_numbers(bearing)
-    type(bearing_system_type), intent(inout) :: bearing
-    integer(pint), allocatable :: global(:)
-    PetscErrorCode :: ierr
-    integer :: i
-
-    if (size(bearing%pad) == 1 .and. all(bearing%block%fields + bearing%block%scalars == 0)) return
-    allocate (bearing%numbers(0:size(bearing%pad)))
-    do i = 0, size(bearing%pad)
-      global = bearing%blocks%global
-      if (i > 0) global = [global(bearing%pad(i)%first + 1:bearing%pad(i)%last), &
-                           global(bearing%first_scalar + 1:)]
-      PetscCallA(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1_pint, size(global, kind=pint), global, PETSC_COPY_VALUES, bearing%numbers(i), ierr))
-    end do
-  end subroutine create_numbers
-
   !> Finds the motions that an iterative solver needs.
   subroutine find_motions(self)
     class(bearing_system_type), intent(inout) :: self !! the bearing's equations
     call create_bearing_motions(self%blocks, self%pad, self%jacobian, self%motions, self%has_motions)
   end subroutine find_motions
-
-  !> From now on a matrix is filled by the local numbers of a pad, behind them scalars' and the shaft's; 0: by the bearing's.
-  subroutine number_by(bearing, i, matrix)
-    class(bearing_system_type), intent(in) :: bearing !! pads and shaft
-    integer, intent(in) :: i !! of the pad, or 0
-    Mat, intent(in) :: matrix !! like the bearing's
-    PetscErrorCode :: ierr
-
-    if (.not. allocated(bearing%numbers)) return
-    PetscCallA(MatSetLocalToGlobalMapping(matrix, bearing%numbers(i), bearing%numbers(i), ierr))
-  end subroutine number_by
 
   !> Fills in what never changes in the matrix, with room for everything else, and keeps a copy.
   subroutine fill_constant(bearing)

@@ -44,6 +44,7 @@ module gfb_foil_model
     real(wp) :: modulus(2) = 1.0_wp            !! Young's, of top foil and bumps, over those that the foil was built with [1]
   contains
     procedure :: add_residual, add_jacobian, add_constant, add_load_rates, estimate, is_meshed, soften, add_modulus_rates
+    procedure, non_overridable :: has_local_springs
     procedure :: create_coarse_motions, add_mass, natural_numbers, surfaces, own_unknown, motions, nodal_contacts, sizes
     procedure :: destroy, place, local_unknowns, own_part, deflection, has_contacts, settle
     procedure :: begin_step, settle_at, commit, add_springs, put_damping, softest, crest_lengths
@@ -119,6 +120,13 @@ contains
     class(foil_model_type), intent(in) :: self !! the foil
     meshed = .false.
   end function is_meshed
+
+  !> Whether a node's pressure moves the foil there, as springs do that have no unknowns.
+  pure logical function has_local_springs(self) result(has)
+    class(foil_model_type), intent(in) :: self !! the foil, placed
+    integer :: node
+    has = any(self%source == [(node, node=1, size(self%source))])
+  end function has_local_springs
 
   !> Whether unknowns of the foil move where the pressures of one half of the width change against those of the other: not
   !> springs that have none, and not what feels the mean pressure across the width. On half the width such a motion has

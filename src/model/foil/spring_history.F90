@@ -51,9 +51,8 @@ contains
     real(wp), intent(in) :: unknown(:) !! of the pad [SI]
     class(foil_model_type), intent(in) :: foil !! the springs
     type(spring_history_type), intent(out) :: history !! of them
-    integer :: node
 
-    history%local = any(foil%source == [(node, node=1, size(foil%source))])
+    history%local = foil%has_local_springs()
     allocate (history%pull(size(unknown), 2), source=0.0_wp)
     history%deflection = spread(spring_deflection(foil, unknown), 2, 2)
     history%relaxed = history%deflection

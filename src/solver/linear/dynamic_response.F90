@@ -32,9 +32,10 @@ module gfb_dynamic_response
   use gfb_solid_contact, only: contact_pressure_rate
   use gfb_contacts_in_motion, only: stick_contacts
   use gfb_pad_contacts, only: linearise_exactly
-  use gfb_film_rates, only: squeeze, squeeze_by_gap, flow_by_gap, fill_film, fill_springs, squeeze_column
-  use gfb_vibration_equations, only: vibration_type, vibration_equations_type, combine, combine_rate, dissipates, add_part, by_rate, &
-                                     by_springs, by_local_springs, by_rate_of_local_springs, destroy_equations
+  use gfb_film_rates, only: squeeze_column
+  use gfb_bearing_motion, only: add_vibrations
+  use gfb_vibration_law, only: vibration_type
+  use gfb_vibration_equations, only: vibration_equations_type, combine, combine_rate, create_sums, destroy_equations
   use gfb_complex_solver, only: complex_solver_type, keep_entries
   use gfb_complex_factors, only: complex_factors_type, create_complex_factors
   use gfb_complex_iterations, only: complex_iterations_type, create_complex_iterations
@@ -219,7 +220,9 @@ contains
     integer :: k
     PetscErrorCode :: ierr
 
-    call complete_equations(bearing, vibration, response%equations)
+    response%equations%vibration = vibration
+    call add_vibrations(bearing, response%equations)
+    call create_sums(response%equations)
     PetscCallA(VecDuplicate(bearing%state, response%one, ierr))
     PetscCallA(VecDuplicate(bearing%state, response%other, ierr))
     do k = 1, size(response%rise)
@@ -235,41 +238,6 @@ contains
     call measure_asperities(bearing, response%solid_rate)
     call create_parts(bearing, response)
   end subroutine complete_response
-
-  !> The other derivatives: the gas that films hold, and what losses act on, which is the deflection that pressures give, or the
-  !> springs' stiffness.
-  subroutine complete_equations(bearing, vibration, equations)
-    type(bearing_system_type), intent(in) :: bearing
-    type(vibration_type), intent(in) :: vibration
-    type(vibration_equations_type), intent(inout) :: equations !! with the steady ones
-    Mat :: matrix
-    integer :: k
-
-    equations%vibration = vibration
-    equations%meshed = bearing%is_meshed()
-    equations%local_springs = any(bearing%pad(1)%foil%source == [(k, k=1, size(bearing%pad(1)%foil%source))])
-    call add_part(by_rate, equations, matrix)
-    call fill_film(bearing, squeeze, matrix)
-    if (dissipates(equations) .and. equations%local_springs) then
-      call add_part(by_local_springs, equations, matrix)
-      call fill_film(bearing, flow_by_gap, matrix)
-      call add_part(by_rate_of_local_springs, equations, matrix)
-      call fill_film(bearing, squeeze_by_gap, matrix)
-    else if (dissipates(equations)) then
-      call add_part(by_springs, equations, matrix)
-      call fill_springs(bearing, matrix)
-    end if
-    call copy_pattern(equations%steady, equations%real_part)
-    call copy_pattern(equations%steady, equations%imaginary_part)
-  end subroutine complete_equations
-
-  !> An empty matrix like another.
-  subroutine copy_pattern(matrix, other)
-    Mat, intent(in) :: matrix
-    Mat, intent(out) :: other
-    PetscErrorCode :: ierr
-    PetscCallA(MatDuplicate(matrix, MAT_DO_NOT_COPY_VALUES, other, ierr))
-  end subroutine copy_pattern
 
   !> Motions of both symmetries on half the width, or all motions at once.
   subroutine create_parts(bearing, response)

@@ -17,7 +17,7 @@ module gfb_foil_weighing
   use gfb_meshed_foil, only: bump_surface
   use gfb_film_rates, only: fill_from_foil
   use gfb_inner_motion, only: inner_modes_type
-  use gfb_vibration_equations, only: foil_inertia_type
+  use gfb_foil_inertia, only: foil_inertia_type
   use gfb_linear_solver, only: use_multigrid
   use gfb_dynamic_response, only: dynamic_response_type, linearise_steady
   implicit none (type)

@@ -4,7 +4,7 @@ module gfb_scene_vibration
   use gfb_scene, only: scene_type
   use gfb_motion_cases, only: tangent_stick
   use gfb_foundation_foil, only: foundation_stiffness
-  use gfb_vibration_equations, only: vibration_type
+  use gfb_vibration_law, only: vibration_type
   implicit none (type, external)
   private
   public :: vibration_of

@@ -26,7 +26,7 @@ module gfb_rotor_modes
   use gfb_text, only: text
   use gfb_rotor_pencil, only: pencil_mode_type, relaxation_type, find_pencil_modes, find_moving_share, has_pencil, &
                               skip_inner_modes, relaxation_of
-  use gfb_vibration_equations, only: vibration_type
+  use gfb_vibration_law, only: vibration_type
   implicit none (type, external)
   private
   public :: find_rotor_modes, find_axial_mode, find_all_modes

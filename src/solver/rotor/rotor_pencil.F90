@@ -31,7 +31,7 @@ module gfb_rotor_pencil
   use gfb_petsc_kinds, only: pint
   use gfb_film_surface, only: journal_motions
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, find_sample, take_over_counts, forces_of
-  use gfb_vibration_equations, only: vibration_equations_type, dissipates, rate_at_rest
+  use gfb_vibration_equations, only: vibration_equations_type, has_linear_parts, has_crowds, rate_at_rest
   use gfb_pencil_share, only: rotor_scale_type, share_type, take_rotor, put_rotor, entries_of, solve_film, add_momentum, &
        put_rates, take_film, put_film, energies_of, energy_unit, start_film, weigh_foil
   implicit none (type)
@@ -80,15 +80,13 @@ module gfb_rotor_pencil
 
 contains
 
-  !> Whether modes can be found as eigenvalues, and counted: the equations are linear in lambda, which they are not with a loss
-  !> factor or a Maxwell arm, nor with dampers beside springs that have no unknowns of their own. Viscous losses of a mesh put
-  !> a rate next to -1/tau for each of its unknowns, and the phase of the determinant turns too fast to be followed.
+  !> Whether modes can be found as eigenvalues, and counted: all parts of the equations are linear in lambda, and none of them brings a
+  !> crowd of eigenvalues. Viscous losses of a mesh put a rate next to -1/tau for each of its unknowns, and the phase of the
+  !> determinant turns too fast to be followed.
   pure function has_pencil(equations)
     type(vibration_equations_type), intent(in) :: equations !! of a bearing
     logical :: has_pencil
-    has_pencil = .not. dissipates(equations) .or. .not. (equations%local_springs .or. equations%meshed .or. &
-                                                         equations%vibration%arm%is_present() .or. &
-                                                         equations%vibration%loss_factor > 0.0_wp)
+    has_pencil = has_linear_parts(equations) .and. .not. has_crowds(equations)
   end function has_pencil
 
   !> Whether a rate lies in the disc.

@@ -13,7 +13,8 @@ module gfb_film_rates
   use gfb_pad_terms, only: shaft_unknowns_type, element_columns, add_block
   use gfb_foil_model, only: foil_model_type
   use gfb_pad, only: pad_type
-  use gfb_bearing_system, only: bearing_system_type, number_by
+  use gfb_bearing, only: bearing_type
+  use gfb_bearing_numbering, only: number_by
   use gfb_foil_rows, only: add_of_foil
   implicit none (type)
   private
@@ -26,7 +27,7 @@ contains
 
   !> Fills a matrix with one of the film's derivatives, element by element.
   subroutine fill_film(bearing, kind, matrix)
-    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    class(bearing_type), intent(in) :: bearing !! at its answer
     integer, intent(in) :: kind !! `squeeze`, `squeeze_by_gap` or `flow_by_gap`
     Mat, intent(in) :: matrix !! like the bearing's; overwritten
 
@@ -120,7 +121,7 @@ contains
 
   !> Derivative of c by one of the shaft's coordinates, the unknowns staying.
   subroutine squeeze_column(bearing, coordinate, column)
-    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    class(bearing_type), intent(in) :: bearing !! at its answer
     integer, intent(in) :: coordinate !! see `shaft_coordinates`
     Vec, intent(in) :: column         !! scaled as the residual, by that unit
 
@@ -164,7 +165,7 @@ contains
 
   !> Stiffness of the foil's own springs, or of foils that are meshed, without contacts.
   subroutine fill_springs(bearing, matrix)
-    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    class(bearing_type), intent(in) :: bearing !! at its answer
     Mat, intent(in) :: matrix !! like the bearing's; overwritten
     PetscErrorCode :: ierr
     integer :: i
@@ -182,7 +183,7 @@ contains
 
   !> A matrix of a meshed foil, the same one for each pad, and nothing else.
   subroutine fill_from_foil(bearing, of_foil, matrix)
-    type(bearing_system_type), intent(in) :: bearing !! at its answer
+    class(bearing_type), intent(in) :: bearing !! at its answer
     Mat, intent(in) :: of_foil !! in the foil's own numbers
     Mat, intent(in) :: matrix  !! like the bearing's; overwritten
     PetscErrorCode :: ierr
@@ -197,7 +198,7 @@ contains
 
   !> A stiffness of the contacts along their surface, and nothing else.
   subroutine fill_friction(bearing, stiffness, matrix)
-    type(bearing_system_type), intent(inout) :: bearing !! at its answer; left as it is
+    class(bearing_type), intent(inout) :: bearing !! at its answer; left as it is
     real(wp), intent(in) :: stiffness(:) !! of this rank's contacts, pad by pad [N/m]
     Mat, intent(in) :: matrix !! like the bearing's; overwritten
     real(wp) :: unknown(bearing%local_size())
@@ -244,7 +245,7 @@ contains
 
   !> Assembles a matrix and scales it as the bearing's.
   subroutine finish(bearing, matrix)
-    type(bearing_system_type), intent(in) :: bearing
+    class(bearing_type), intent(in) :: bearing
     Mat, intent(in) :: matrix
     Vec :: left, right
     PetscErrorCode :: ierr
