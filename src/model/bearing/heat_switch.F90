@@ -13,7 +13,16 @@ module gfb_heat_switch
   use gfb_bearing_system, only: bearing_system_type, bearing_order, set_up_equations, free_equations
   implicit none (type)
   private
-  public :: add_heat, freeze_heat, follow_frozen, visit_frozen
+  public :: add_heat, freeze_heat, hold_heat, follow_frozen, visit_frozen
+
+  !> A bearing as a motion of its shaft meets it, see `hold_heat`. What it has of its own is freed when the variable goes, however
+  !> the procedure ends.
+  type, public :: held_bearing_type
+    type(bearing_system_type), pointer :: bearing => null()
+    logical, private :: has_own = .false. !! it is not the bearing that was given
+  contains
+    final :: let_go
+  end type held_bearing_type
 
 contains
 
@@ -71,6 +80,27 @@ contains
     if (bearing%has_motions) call frozen%find_motions()
     call frozen%set_unknowns([unknown(:bearing%heat%first(1)), unknown(bearing%first_shaft + 1:)])
   end subroutine freeze_heat
+
+  !> What a motion of the shaft meets: the bearing itself, or where heat is solved for one whose temperatures stay as they are.
+  subroutine hold_heat(bearing, held)
+    type(bearing_system_type), target, intent(inout) :: bearing !! at its answer
+    type(held_bearing_type), intent(out) :: held !! of it
+
+    held%bearing => bearing
+    held%has_own = bearing%has_slow_unknowns()
+    if (.not. held%has_own) return
+    allocate (held%bearing)
+    call freeze_heat(bearing, held%bearing)
+  end subroutine hold_heat
+
+  !> Frees the equations of a bearing of its own, which shares all else.
+  subroutine let_go(self)
+    type(held_bearing_type), intent(inout) :: self !! goes
+
+    if (.not. self%has_own) return
+    call free_equations(self%bearing)
+    deallocate (self%bearing)
+  end subroutine let_go
 
   !> Gives films that have none the temperatures of others, which are meshed alike, and foils their moduli; of two bearings both
   !> have them.

@@ -29,8 +29,8 @@ module gfb_whirl_sensitivity
   use gfb_motion_cases, only: mass_on, mass_off, frequencies_at
   use gfb_sweep_case, only: swept_key_type
   use gfb_operating_point, only: operating_point_type
-  use gfb_bearing_system, only: bearing_system_type, free_equations
-  use gfb_heat_switch, only: freeze_heat
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_heat_switch, only: held_bearing_type, hold_heat
   use gfb_foil_builder, only: keep_elements
   use gfb_bearing_builder, only: take_numbers, build_changed
   use gfb_newton, only: newton_type
@@ -190,50 +190,45 @@ contains
   end subroutine derive_form
 
   !> Coefficients at the frequency, motions and adjoints, with one factorization.
-  recursive subroutine find_motions(scene, bearing, newton, form, problem)
+  subroutine find_motions(scene, bearing, newton, form, problem)
     type(scene_type), intent(in) :: scene
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), intent(inout) :: newton
     type(whirl_form_type), intent(inout) :: form
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
     type(dynamic_response_type) :: response
-    type(bearing_system_type) :: frozen
+    type(held_bearing_type) :: held
     complex(wp), allocatable :: z(:, :), slope(:, :)
     real(wp), allocatable :: gradient(:, :)
     PetscErrorCode :: ierr
     logical :: found, all_found
     integer :: k
 
-    if (bearing%has_slow_unknowns()) then
-      call freeze_heat(bearing, frozen)
-      call find_motions(scene, frozen, newton, form, problem)
-      call free_equations(frozen)
-      return
-    end if
-    call respond(scene, bearing, form, response, newton%log)
-    form%closed = closed_contacts(bearing)
-    allocate (form%motion(bearing%local_size(), 2, planar))
+    call hold_heat(bearing, held)
+    call respond(scene, held%bearing, form, response, newton%log)
+    form%closed = closed_contacts(held%bearing)
+    allocate (form%motion(held%bearing%local_size(), 2, planar))
     associate (part => response%part(1), one => response%one, other => response%other, rate => form%rate)
       allocate (z(size(part%coordinate), size(part%coordinate)), source=(0.0_wp, 0.0_wp))
       slope = z
-      call find_sample(bearing, response, 1, rate, z, slope, all_found)
+      call find_sample(held%bearing, response, 1, rate, z, slope, all_found)
       form%matrix = z(:planar, :planar)
       form%by_frequency = (0.0_wp, 1.0_wp)*slope(:planar, :planar)
-      gradient = force_gradient(bearing, response, part)
+      gradient = force_gradient(held%bearing, response, part)
       do k = 1, planar
-        PetscCallA(VecDuplicate(bearing%state, form%adjoint(1, k), ierr))
-        PetscCallA(VecDuplicate(bearing%state, form%adjoint(2, k), ierr))
+        PetscCallA(VecDuplicate(held%bearing%state, form%adjoint(1, k), ierr))
+        PetscCallA(VecDuplicate(held%bearing%state, form%adjoint(2, k), ierr))
         if (.not. all_found) cycle
         PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
         PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
         PetscCallA(VecScale(other, aimag(rate), ierr))
         call part%solver%solve(one, other, found)
         all_found = all_found .and. found
-        call bearing%get_unknowns(form%motion(:, 1, k), one)
-        call bearing%get_unknowns(form%motion(:, 2, k), other)
+        call held%bearing%get_unknowns(form%motion(:, 1, k), one)
+        call held%bearing%get_unknowns(form%motion(:, 2, k), other)
         PetscCallA(VecSet(form%adjoint(1, k), 0.0_wp, ierr))
         PetscCallA(VecSet(form%adjoint(2, k), 0.0_wp, ierr))
-        call bearing%exchange%add(gradient(:, k)*bearing%unknown_scale, form%adjoint(1, k))
+        call held%bearing%exchange%add(gradient(:, k)*held%bearing%unknown_scale, form%adjoint(1, k))
         call keep_entries(form%adjoint(1, k), part%kept)
         call part%solver%solve(form%adjoint(1, k), form%adjoint(2, k), found, transposed=.true.)
         all_found = all_found .and. found
@@ -272,34 +267,30 @@ contains
   end function closed_contacts
 
   !> The form of the coefficients in a bearing close by, with the answer's motions and adjoints.
-  recursive subroutine evaluate_form(scene, bearing, form, matrix, problem)
+  subroutine evaluate_form(scene, bearing, form, matrix, problem)
     type(scene_type), intent(in) :: scene !! of the bearing
-    type(bearing_system_type), intent(inout) :: bearing !! in its state
+    type(bearing_system_type), target, intent(inout) :: bearing !! in its state
     type(whirl_form_type), intent(in) :: form
     complex(wp), intent(out) :: matrix(:, :) !! Z [N/m]
     character(len=:), allocatable, intent(out) :: problem !! empty where there is none
     type(dynamic_response_type) :: response
-    type(bearing_system_type) :: frozen
+    type(held_bearing_type) :: held
     complex(wp), allocatable :: force(:)
     PetscErrorCode :: ierr
     PetscScalar :: along(2, 2)
     integer :: i, j, k, n
 
-    if (bearing%has_slow_unknowns()) then
-      call freeze_heat(bearing, frozen)
-      call evaluate_form(scene, frozen, form, matrix, problem)
-      call free_equations(frozen)
-      return
-    end if
-    call respond(scene, bearing, form, response)
+    call hold_heat(bearing, held)
+    call respond(scene, held%bearing, form, response)
     problem = ''
-    if (any_rank(any(closed_contacts(bearing) .neqv. form%closed))) problem = flips
+    if (any_rank(any(closed_contacts(held%bearing) .neqv. form%closed))) problem = flips
     call combine(response%equations, form%rate)
     associate (part => response%part(1), one => response%one, other => response%other, rest => response%rise)
       do k = 1, planar
-        call bearing%exchange%put(form%motion(:, 1, k)/bearing%unknown_scale, one)
-        call bearing%exchange%put(form%motion(:, 2, k)/bearing%unknown_scale, other)
-        force = cmplx(forces_of(bearing, response, part, k, 1.0_wp, one), forces_of(bearing, response, part, k, 0.0_wp, other), wp)
+        call held%bearing%exchange%put(form%motion(:, 1, k)/held%bearing%unknown_scale, one)
+        call held%bearing%exchange%put(form%motion(:, 2, k)/held%bearing%unknown_scale, other)
+        force = cmplx(forces_of(held%bearing, response, part, k, 1.0_wp, one), &
+                      forces_of(held%bearing, response, part, k, 0.0_wp, other), wp)
         call find_rest(response, form%rate, k)
         do n = 1, 2
           call keep_entries(rest(n), part%kept)

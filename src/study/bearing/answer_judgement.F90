@@ -12,8 +12,8 @@ module gfb_answer_judgement
   use gfb_scene, only: scene_type
   use gfb_study_cases, only: quantity_words, parameter_type, quantities_of, of_whirl, of_coefficients
   use gfb_sweep_case, only: swept_key_type
-  use gfb_bearing_system, only: bearing_system_type, free_equations
-  use gfb_heat_switch, only: freeze_heat
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_heat_switch, only: held_bearing_type, hold_heat
   use gfb_newton, only: newton_type, find_determinant_sign
   use gfb_static_stiffness, only: find_edge_stiffness
   use gfb_whirl, only: whirl_type
@@ -99,24 +99,19 @@ contains
   subroutine judge_answer(scene, log, bearing, newton, list)
     type(scene_type), intent(in) :: scene !! whether stability is asked for
     type(run_log_type), intent(in) :: log !! where lines go
-    type(bearing_system_type), intent(inout) :: bearing !! at an answer
+    type(bearing_system_type), target, intent(inout) :: bearing !! at an answer
     type(newton_type), intent(inout) :: newton !! its solver
     type(quantity_type), allocatable, intent(out) :: list(:) !! what is known of it
     type(stability_type) :: stability
-    type(bearing_system_type) :: frozen
+    type(held_bearing_type) :: held
     integer :: sign_of_determinant, i
     real(wp), allocatable :: stiffness(:)
     logical, allocatable :: known(:)
 
     allocate (list(0))
     if (scene%solver%stability) then
-      if (bearing%has_slow_unknowns()) then
-        call freeze_heat(bearing, frozen)
-        call find_stability(frozen, stability)
-        call free_equations(frozen)
-      else
-        call find_stability(bearing, stability)
-      end if
+      call hold_heat(bearing, held)
+      call find_stability(held%bearing, stability)
       newton%factorizations = newton%factorizations + stability%factorizations
       newton%enlargements = newton%enlargements + stability%enlargements
       call log%judged('stability: '//stability_words(stability, &

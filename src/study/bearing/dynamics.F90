@@ -12,8 +12,8 @@ module gfb_dynamics
   use gfb_scene, only: scene_type
   use gfb_motion_cases, only: tangent_stick, frequencies_at
   use gfb_film_surface, only: journal_motions
-  use gfb_bearing_system, only: bearing_system_type, free_equations
-  use gfb_heat_switch, only: freeze_heat
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_heat_switch, only: held_bearing_type, hold_heat
   use gfb_bearing_builder, only: build_opposite
   use gfb_newton, only: newton_type, show_enlargements
   use gfb_dynamic_response, only: dynamic_response_type, create_response, response_failure, destroy_response
@@ -44,10 +44,10 @@ contains
 
   !> Coefficients at the frequencies of the scene, the critical mass and the rotor's modes, where they are asked for; the bearing's
   !> state and equations are left as they are.
-  recursive subroutine find_dynamics(scene, log, bearing, newton, record, found, whirl)
+  subroutine find_dynamics(scene, log, bearing, newton, record, found, whirl)
     type(scene_type), intent(in) :: scene !! what is asked for, with the sweep's value in its keys
     type(run_log_type), intent(in) :: log !! where lines go
-    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    type(bearing_system_type), target, intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
     type(dynamics_record_type), intent(inout) :: record !! gets the answer's coefficients
     !> entries of K and C, critical mass, whirl ratio, the rotor's growth; not allocated where nothing is asked for
@@ -57,46 +57,43 @@ contains
     type(dynamic_response_type) :: response
     type(frequency_response_type) :: model
     type(dynamics_point_type) :: point
-    type(bearing_system_type) :: frozen
+    type(held_bearing_type) :: held
     logical :: first
 
     if (.not. scene%dynamics%present) return
-    if (bearing%has_slow_unknowns()) then
-      call freeze_heat(bearing, frozen)
-      call find_dynamics(scene, log, frozen, newton, record, found, whirl)
-      call free_equations(frozen)
-      return
-    end if
+    call hold_heat(bearing, held)
     if (.not. allocated(record%point)) allocate (record%point(0))
     first = size(record%point) == 0
     allocate (found(0))
     if (.not. scene%sweep%present) call log%heading('small vibrations')
     if (first) call describe(scene, log)
-    call start_response(scene, log, bearing, response, record%problem)
+    call start_response(scene, log, held%bearing, response, record%problem)
     if (allocated(record%problem)) return
     call describe_mass(scene, log, response%equations%inertia, first)
-    call fill_coefficients(scene, log, bearing, response, model, point, record%problem)
+    call fill_coefficients(scene, log, held%bearing, response, model, point, record%problem)
     if (.not. allocated(record%problem)) then
       call add_entries('stiffness_', stiffness_of(point, 1), found)
       call add_entries('damping_', damping_of(point, 1), found)
-      if (.not. scene%sweep%present) call show_coefficients(scene, log, bearing%point%speed, point)
+      if (.not. scene%sweep%present) call show_coefficients(scene, log, held%bearing%point%speed, point)
     end if
     if (.not. allocated(record%problem) .and. size(scene%dynamics%amplitudes) > 0) then
-      call fill_amplitudes(scene, log, bearing, response, point, record%problem)
+      call fill_amplitudes(scene, log, held%bearing, response, point, record%problem)
     end if
-    if (.not. allocated(record%problem) .and. scene%dynamics%stability .and. bearing%point%speed > 0.0_wp) then
-      call add_whirl(log, bearing, response, model, found, whirl, record%problem)
-      if (scene%rotor%present .and. .not. allocated(record%problem)) call find_rotor_modes(bearing, response, rotor_of(scene), rotor)
+    if (.not. allocated(record%problem) .and. scene%dynamics%stability .and. held%bearing%point%speed > 0.0_wp) then
+      call add_whirl(log, held%bearing, response, model, found, whirl, record%problem)
+      if (scene%rotor%present .and. .not. allocated(record%problem)) then
+        call find_rotor_modes(held%bearing, response, rotor_of(scene), rotor)
+      end if
     end if
     if (.not. allocated(record%problem) .and. scene%bearing%row%moves_along .and. scene%rotor%present) then
-      call add_axial_mode(scene, log, bearing, response, point%frequency(1), found)
+      call add_axial_mode(scene, log, held%bearing, response, point%frequency(1), found)
     end if
     whirl%weighs = response%equations%inertia%present
     record%point = [record%point, point]
     if (response%enlargements > 0) call show_enlargements(log, response%enlargements)
-    call end_response(bearing, newton, response)
+    call end_response(held%bearing, newton, response)
     if (.not. allocated(rotor%mode)) return
-    call show_rotor(log, bearing%point%speed, scene%sweep%present, found, scene%rotor%mass, rotor)
+    call show_rotor(log, held%bearing%point%speed, scene%sweep%present, found, scene%rotor%mass, rotor)
     call add_rotor(rotor, found)
     if (rotor%defined) record%point(size(record%point))%mode = mode_matrix(rotor)
   end subroutine find_dynamics
@@ -237,32 +234,27 @@ contains
 
   !> What is positive where the rotor is unstable: growth of its least damped mode at an answer, and with a loss factor,
   !> which has no growth, the excess of its mass over the critical one.
-  recursive subroutine find_instability(scene, bearing, newton, excess, problem)
+  subroutine find_instability(scene, bearing, newton, excess, problem)
     type(scene_type), intent(in) :: scene !! with a rotor
-    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    type(bearing_system_type), target, intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
     real(wp), intent(out) :: excess !! [1/s], with a loss factor [1]
     character(len=:), allocatable, intent(out) :: problem !! why it was not found
     type(dynamic_response_type) :: response
     type(rotor_answer_type) :: answer
     type(whirl_type) :: whirl
-    type(bearing_system_type) :: frozen
+    type(held_bearing_type) :: held
 
-    if (bearing%has_slow_unknowns()) then
-      call freeze_heat(bearing, frozen)
-      call find_instability(scene, frozen, newton, excess, problem)
-      call free_equations(frozen)
-      return
-    end if
+    call hold_heat(bearing, held)
     excess = 0.0_wp
     if (scene%dynamics%loss_factor > 0.0_wp) then
-      call find_whirl(scene, bearing, newton, whirl, problem)
+      call find_whirl(scene, held%bearing, newton, whirl, problem)
       excess = mass_excess(scene%rotor%mass, whirl%critical_mass, whirl%found)
       return
     end if
-    call start_response(scene, newton%log, bearing, response, problem)
+    call start_response(scene, newton%log, held%bearing, response, problem)
     if (allocated(problem)) return
-    call find_rotor_modes(bearing, response, rotor_of(scene), answer)
+    call find_rotor_modes(held%bearing, response, rotor_of(scene), answer)
     if (.not. answer%found) then
       problem = 'modes were not found: '//answer%reason
     else if (answer%decides == 0) then
@@ -270,7 +262,7 @@ contains
     else
       excess = real(answer%mode(answer%decides)%rate, wp)
     end if
-    call end_response(bearing, newton, response)
+    call end_response(held%bearing, newton, response)
   end subroutine find_instability
 
   !> The excess of a mass over the critical one, over the sum of both: -1 where no mass whirls, 1 where every one does.
@@ -285,27 +277,22 @@ contains
   end function mass_excess
 
   !> The mass above which a rigid shaft whirls at an answer.
-  recursive subroutine find_whirl(scene, bearing, newton, whirl, problem)
+  subroutine find_whirl(scene, bearing, newton, whirl, problem)
     type(scene_type), intent(in) :: scene !! whose `&dynamics` says what the foil does
-    type(bearing_system_type), intent(inout) :: bearing !! at its answer
+    type(bearing_system_type), target, intent(inout) :: bearing !! at its answer
     type(newton_type), intent(inout) :: newton !! its factorizations are counted
     type(whirl_type), intent(out) :: whirl !! what was found
     character(len=:), allocatable, intent(out) :: problem !! why it was not searched
     type(dynamic_response_type) :: response
     type(frequency_response_type) :: model
-    type(bearing_system_type) :: frozen
+    type(held_bearing_type) :: held
 
-    if (bearing%has_slow_unknowns()) then
-      call freeze_heat(bearing, frozen)
-      call find_whirl(scene, frozen, newton, whirl, problem)
-      call free_equations(frozen)
-      return
-    end if
-    call create_response(bearing, vibration_of(scene), response, log=newton%log)
-    call choose_mass(scene, bearing, response)
-    call find_critical_mass(bearing, response, newton%log, model, whirl)
+    call hold_heat(bearing, held)
+    call create_response(held%bearing, vibration_of(scene), response, log=newton%log)
+    call choose_mass(scene, held%bearing, response)
+    call find_critical_mass(held%bearing, response, newton%log, model, whirl)
     if (.not. whirl%searched) problem = response_failure(response)
-    call end_response(bearing, newton, response)
+    call end_response(held%bearing, newton, response)
   end subroutine find_whirl
 
   !> The scene's rotor.
