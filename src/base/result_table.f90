@@ -131,6 +131,11 @@ module gfb_result_table
     result_type('power_loss', 'W', number, bearing, 'friction torque times speed', asked=.true.), &
     result_type('minimum_gap', 'm', number, bearing, 'smallest film thickness', &
       asked=.true., compared=.true., nodal=.true.), &
+    result_type('film_margin', '1', number, bearing, &
+      'smallest film, over time where the shaft moves, over smallest_gap; below 1 too thin', &
+      'with `smallest_gap` of `&capacity` where no limit is looked for: `minimum_gap` over it, '// &
+      'of a shaft that moves `minimum_gap_over_time`; below 1 the film is thinner than wanted', &
+      nodal=.true.), &
     result_type('minimum_gap_<n>', 'm', number, bearing, 'smallest film thickness over pad n', &
       'of several pads: smallest film thickness over each', nodal=.true.), &
     result_type('minimum_gap_midplane', 'm', number, bearing, 'smallest film thickness at z = 0', &
@@ -145,7 +150,8 @@ module gfb_result_table
     result_type('leading_edge_lift', 'm', number, bearing, &
       'displacement of the top foil''s edge towards the shaft, at z = 0', &
       'foils of shells or beams: displacement of the top foil''s edge towards the shaft, at '// &
-      'z = 0, and (`_edge`) at the ends of the bearing', compared=.true.), &
+      'z = 0, and (`_edge`) at the ends of the bearing; of several pads the mean', &
+      compared=.true.), &
     result_type('leading_edge_lift_edge', 'm', number, bearing, &
       'displacement of the top foil''s edge towards the shaft, at the ends of the bearing', &
       compared=.true., joins=.true.), &
@@ -266,6 +272,10 @@ module gfb_result_table
       asked=.true.), &
     result_type('running_clearance', 'm', number, bearing, &
       'clearance less what shaft and sleeve grow by temperature and speed', asked=.true.), &
+    result_type('running_play', 'm', number, bearing, &
+      'running_clearance less the preload of pads and of assembly', &
+      'of pads with a preload, or foils with `assembly_interference`: `running_clearance` less '// &
+      'both, the play of the warm shaft on foils at rest; below 0 it presses on them'), &
     result_type('energy_imbalance', '1', number, bearing, &
       'power less all heat out of the film, over the power', &
       'power less all heat out of the film, over the power: what the solver left open'), &

@@ -3,7 +3,7 @@ module gfb_units
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: pi, turn, degree, degrees, rpm, micrometres
+  public :: pi, turn, degree, degrees, rpm, micrometres, ice_point
 
   real(wp), parameter :: pi = acos(-1.0_wp)
   real(wp), parameter :: turn = 2.0_wp*pi      !! [rad]
@@ -11,4 +11,5 @@ module gfb_units
   real(wp), parameter :: degrees = 1.0_wp/degree !! in a radian
   real(wp), parameter :: rpm = pi/30.0_wp      !! turn a minute [rad/s]
   real(wp), parameter :: micrometres = 1.0e6_wp !! in a metre
+  real(wp), parameter :: ice_point = 273.15_wp  !! 0 degrees Celsius [K]
 end module gfb_units

@@ -2,7 +2,7 @@
 module gfb_bearing_summary
   use gfb_kinds, only: wp
   use gfb_film_surface, only: axial => axial_coordinate
-  use gfb_units, only: degrees
+  use gfb_units, only: degrees, ice_point
   use gfb_quantity, only: quantity_type, quantity_word, quantity_truth, add_quantity, place_of
   use gfb_result_names, only: add_result
   use gfb_result_table, only: film_and_contact, film_and_contact_brake, of_pads, of_foil, of_cone
@@ -37,7 +37,7 @@ module gfb_bearing_summary
     'load_capacity', 'load_capacity_coefficient', 'load_capacity_coefficient_si', &
     'lift_off_speed_rpm', 'misalignment_allowance', 'limit_reached', 'not_reached', 'ending', &
     'onset_speed_rpm', 'critical_mass', 'growth_rate', 'time', 'turns', 'orbit_x', 'orbit_y', &
-    'minimum_gap_over_time']
+    'minimum_gap_over_time', 'film_margin']
   integer, parameter :: digits = 6, label = 16 !! of their lines
 
 contains
@@ -216,6 +216,9 @@ contains
       call add_result(list, 'mass_flow_trailing_edge', whole%trailing)
       call add_result(list, 'mass_flow_sides', whole%sides)
       if (grows) call add_result(list, 'running_clearance', heat%running_clearance)
+      if (grows .and. heat%preload > 0.0_wp) then
+        call add_result(list, 'running_play', heat%running_clearance - heat%preload)
+      end if
       call add_result(list, 'energy_imbalance', heat%imbalance)
       if (heat%softens) call add_moduli('', whole)
     end associate
@@ -445,7 +448,8 @@ contains
 
     if (answer%has_foils) then
       call log%line('top foil edges   leading '//lifts(answer%leading_edge_lift)//', trailing '// &
-                    lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends)')
+                    lifts(answer%trailing_edge_lift)//' um off the bumps (midplane, ends'// &
+                    mean_of(size(answer%pad_lift, 2))//')')
       call show_crests(log, answer)
       if (max(maxval(answer%pad_lift), maxval(answer%trailing_edge_lift)) > lifted*clearance) then
         call log%line('                 an edge is lifted; it may lie on its bumps, too: '// &
@@ -471,6 +475,15 @@ contains
                   pair(answer%force_without_suction(4:5), 'mN m', 1.0e3_wp))
   end subroutine show_shaft
 
+  !> Of what a value of several pads is the mean; empty for one.
+  pure function mean_of(pads) result(words)
+    integer, intent(in) :: pads !! how many there are
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (pads > 1) words = '; mean of '//text(pads)//' pads'
+  end function mean_of
+
   !> Whose forces are reported: the film's alone, or all with those of solid contact.
   pure function forces_of(answer) result(who)
     type(bearing_answer_type), intent(in) :: answer
@@ -493,18 +506,14 @@ contains
         call log%line('  of top foil    '//share('through the bumps', whole%through_bumps)//', '// &
                       share('to the cooling gas', whole%to_channel))
       end if
-      call log%line('temperatures     film '//kelvin(whole%film_temperature)//' (at most '// &
-                    kelvin(whole%maximum_film_temperature)//'), top foil '// &
-                    kelvin(whole%top_foil_temperature)//' ('// &
-                    kelvin(whole%maximum_top_foil_temperature)//'), shaft '// &
-                    kelvin(heat%shaft_temperature)//', sleeve '// &
-                    kelvin(heat%sleeve_temperature)//', inlet '// &
-                    kelvin(whole%inlet_temperature)//' K')
+      call log%line('temperatures     '//all_temperatures(heat, 0.0_wp)//' K')
+      call log%line('                 '//all_temperatures(heat, ice_point)//' C')
       if (heat%has_cooling) then
-        call log%line('cooling gas      leaves at '//kelvin(heat%cooling_outlet_temperature)//' K')
+        call log%line('cooling gas      leaves at '// &
+                      tenths(heat%cooling_outlet_temperature)//' K, '// &
+                      tenths(heat%cooling_outlet_temperature - ice_point)//' C')
       end if
-      if (grows) call log%line('clearance        '//engineering_text(heat%running_clearance, &
-                                                          'um', 1.0e6_wp)//' when it runs')
+      if (grows) call show_clearance(log, heat)
       if (heat%softens) then
         words = ''
         if (heat%top_foil_bends) words = text(whole%modulus(1), 4)//' in the top foil, '
@@ -531,14 +540,47 @@ contains
       if (.not. heat%whole%power > 0.0_wp) return
       share = share//' ('//text(100.0_wp*flow/heat%whole%power, 3)//' %)'
     end function share
-
-    !> A temperature to a tenth of a kelvin.
-    function kelvin(temperature) result(words)
-      real(wp), intent(in) :: temperature !! [K]
-      character(len=:), allocatable :: words
-      words = text(0.1_wp*anint(10.0_wp*temperature), 5)
-    end function kelvin
   end subroutine show_heat
+
+  !> Temperatures of film, foil, walls and inlet.
+  pure function all_temperatures(heat, zero) result(words)
+    type(heat_answer_type), intent(in) :: heat
+    real(wp), intent(in) :: zero !! of the scale [K]
+    character(len=:), allocatable :: words
+
+    associate (whole => heat%whole)
+      words = 'film '//tenths(whole%film_temperature - zero)//' (at most '// &
+              tenths(whole%maximum_film_temperature - zero)//'), top foil '// &
+              tenths(whole%top_foil_temperature - zero)//' ('// &
+              tenths(whole%maximum_top_foil_temperature - zero)//'), shaft '// &
+              tenths(heat%shaft_temperature - zero)//', sleeve '// &
+              tenths(heat%sleeve_temperature - zero)//', inlet '// &
+              tenths(whole%inlet_temperature - zero)
+    end associate
+  end function all_temperatures
+
+  !> A temperature to a tenth of a degree.
+  pure function tenths(temperature) result(words)
+    real(wp), intent(in) :: temperature !! [K] or [C]
+    character(len=:), allocatable :: words
+    words = text(0.1_wp*anint(10.0_wp*temperature), 5)
+  end function tenths
+
+  !> What room growth leaves the shaft.
+  subroutine show_clearance(log, heat)
+    type(run_log_type), intent(in) :: log
+    type(heat_answer_type), intent(in) :: heat
+    character(len=:), allocatable :: play
+
+    play = ''
+    if (heat%preload > 0.0_wp) then
+      play = '; less '//engineering_text(heat%preload, 'um', 1.0e6_wp)// &
+             ' of preload the shaft has a play of '// &
+             engineering_text(heat%running_clearance - heat%preload, 'um', 1.0e6_wp)
+    end if
+    call log%line('clearance        '//engineering_text(heat%running_clearance, &
+                                                        'um', 1.0e6_wp)//' when it runs'//play)
+  end subroutine show_clearance
 
   !> What each of several pads does.
   subroutine show_pads(log, answer)

@@ -178,7 +178,7 @@ contains
     end associate
   end subroutine check_accuracy
 
-  !> Checks a scene that asks for a limit.
+  !> Checks a scene that asks for a limit, or gives the film wanted.
   subroutine check_capacity(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
@@ -186,6 +186,10 @@ contains
 
     associate (limit => scene%capacity%limit, smallest => scene%capacity%smallest_gap, &
                sweep => scene%sweep)
+      call keys%rule('capacity', 'smallest_gap', limit /= limit_speed .and. &
+                     smallest > 0.0_wp .and. smallest <= scene%solver%touch_down_gap, 'must be '// &
+                     'more than touch_down_gap in &solver, '//text(scene%solver%touch_down_gap)// &
+                     ' m, where paths end')
       if (limit == 0) return
       call keys%rule('operation', 'load', limit /= limit_tilt .and. &
                      is_unloaded(scene), 'must not be zero: it gives the direction, and '// &
@@ -193,10 +197,6 @@ contains
       call keys%rule('scene', 'analysis', limit == limit_speed .and. .not. &
                      scene%shaft_contact%present, &
                      "'lift_off' needs &shaft_contact: only asperities lift off")
-      call keys%rule('capacity', 'smallest_gap', limit /= limit_speed .and. &
-                     smallest > 0.0_wp .and. smallest <= scene%solver%touch_down_gap, 'must be '// &
-                     'more than touch_down_gap in &solver, '//text(scene%solver%touch_down_gap)// &
-                     ' m, where paths end')
       call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                      "must be 'monolithic' where a limit is looked for: film and foil in turns "// &
                      'follow no path to it')

@@ -225,6 +225,10 @@ class ReportTest(unittest.TestCase):
         words, signs = verdict(film, {})
         self.assertEqual(words, "No limit is known for film: thinnest film 4 um at theta = 172 deg, z = 0 mm. Not computed: whirl, misalignment, temperature.")
         self.assertEqual(signs, {("film", "? no limit known")})
+        [(_, _, against, is_bad), *_] = glance(film, gfb.Case(SMALL | wanted), Place(3.0, 0.0))
+        self.assertEqual((against, is_bad), ("at theta = 172 deg, z = 0 mm; 5 um are wanted: 0.8 times", True))
+        self.assertEqual(verdict(film, wanted)[0], "Film limits this bearing: thinnest film 4 um at theta = 172 deg, z = 0 mm, 5 um are wanted: 0.8 of what is needed. "
+                         "Not computed: whirl, misalignment, temperature.")
         words, signs = verdict(film | mass | row("load_capacity", 30.0, "N"), {"rotor": {"mass": 0.1}})
         self.assertTrue(words.startswith("All known limits are kept; load is nearest to its own: load capacity 30 N, the load is 20 N: 1.5 times what is needed. "
                                          "No limit is known for film."), words)

@@ -90,6 +90,12 @@ def check_capacity(checks, folder):
     told = re.search(words, light.log)
     angle, load, centre = map(float, told.groups()) if told else (0.0, 0.0, 999.0)
     checks.below("capacity, springs: attitude angle from the load's direction to that of the shaft's centre", centre - load - angle, 0.1)
+    kept, broken = (solve(folder, "wanted", case("equilibrium", {"smallest_gap": gap}, mesh=mesh, load=0.8*found)) for gap in (GAP, 3.0*GAP))
+    checks.that("capacity, springs: a film that is wanted changes no answer", kept["minimum_gap"] == broken["minimum_gap"] > GAP)
+    checks.below("capacity, springs: its margin", max(abs(one["film_margin"]*gap/kept["minimum_gap"] - 1.0)
+                                                      for one, gap in ((kept, GAP), (broken, 3.0*GAP))), 1.0e-12)
+    checks.that("capacity, springs: a film that is too thin is warned of", "is thinner than smallest_gap of &capacity" in broken.log
+                and "is thinner than" not in kept.log and "film margin" in kept.log)
     checks.that("capacity, springs: reached", light["limit_reached"] == above["limit_reached"] == "true")
     si = found/(GU2020.length*(2.0*GU2020.radius)**2*30000.0*numpy.pi/30.0)
     checks.below("coefficient in SI", light["load_capacity_coefficient_si"]/si - 1.0, 1.0e-12)

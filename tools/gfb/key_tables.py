@@ -21,7 +21,7 @@ PURPOSES = {  # what a group is for, and where more of it stands
     "periodic": "Periodic solutions ([periodic.md](periodic.md)).",
     "unbalance": "What drives the shaft once a turn ([transient.md](transient.md)).",
     "foil_damping": "Structural damping and mass of the foils ([foil_damping.md](foil_damping.md#what-each-foil-model-does-under-vibration)).",
-    "capacity": "Limits of load, speed and tilt ([capacity.md](capacity.md)).",
+    "capacity": "Limits of load, speed and tilt, and the film that is wanted in any case ([capacity.md](capacity.md)).",
     "sweep": "Several values of a key, one after the other ([sweeps.md](sweeps.md)).",
     "top_foil": "The foil under the film.",
     "bump_foil": "The bumps under the top foil, as drawn and as built ([strips_as_built.md](strips_as_built.md)).",

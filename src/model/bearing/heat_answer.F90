@@ -7,6 +7,7 @@ module gfb_heat_answer
   use gfb_heated_film, only: heated_residual, heated_shear, mean_over_gap, heated_state_type, heated_rows, row_foil, row_shaft, field_gas, &
                              field_foil, field_gap, field_shaft
   use gfb_bearing_heat, only: film_heat_type, growth_of, moduli_at
+  use gfb_gap_part, only: shift_of
   use gfb_film_heat, only: state_of, channel_places, feed, is_leading, is_trailing
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
@@ -41,6 +42,7 @@ module gfb_heat_answer
     logical :: has_cooling = .false.
     real(wp) :: cooling_outlet_temperature = 0.0_wp !! [K]
     real(wp) :: running_clearance = 0.0_wp          !! C less all growth, mean [m]
+    real(wp) :: preload = 0.0_wp                    !! m C of the pads, and interference of assembly [m]
     real(wp) :: imbalance = 0.0_wp                  !! power less all heat, over the power [1]
     logical :: softens = .false.                    !! the modulus of foils follows their temperature
     logical :: top_foil_bends = .false.             !! then: that of the top foil counts, too
@@ -76,6 +78,7 @@ contains
     associate (all => sum(sum_of, 2))
       answer%shaft_temperature = all(13)/all(3)
       answer%running_clearance = pads(1)%film%clearance - all(14)/all(3)
+      answer%preload = norm2(shift_of(pads(1)%film%part, [0.0_wp, 0.0_wp])) + pads(1)%film%interference()
     end associate
     answer%sleeve_temperature = unknown(heat%place_of_sleeve())
     answer%has_cooling = heat%channels > 0

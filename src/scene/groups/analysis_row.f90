@@ -9,7 +9,7 @@ module gfb_analysis_row
   integer, parameter, public :: limit_tilt = 3  !! the largest that leaves the film
 
   character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas thermal '// &
-    'shaft_contact operation sweep contact accuracy sample'
+    'shaft_contact operation sweep contact accuracy sample capacity'
   character(len=*), parameter :: offered_often = ' pads bore thermal shaft_contact sweep'
 
   character(len=*), parameter :: bearing = &
@@ -45,7 +45,7 @@ module gfb_analysis_row
     logical :: finds_modes = .false. !! natural ones of a foil, or a part of it
     integer :: limit = 0             !! `limit_load`, ...: of what a limit is looked for; 0: none is
     character(len=22) :: limit_result = '' !! its name among the results
-    character(len=150) :: groups = ''   !! of the case file, where others have no use for them
+    character(len=160) :: groups = ''   !! of the case file, where others have no use for them
   contains
     procedure, non_overridable :: is_known, is_structure, takes, refusal
   end type analysis_row_type
@@ -80,15 +80,15 @@ module gfb_analysis_row
 
   type(analysis_row_type), parameter, public :: analysis_load_capacity = analysis_row_type( &
     number=6, word='load_capacity', has_film=.true., floats=.true., limit=limit_load, &
-    limit_result='load_capacity', groups=of_bearings//' capacity ')
+    limit_result='load_capacity', groups=of_bearings//' ')
 
   type(analysis_row_type), parameter, public :: analysis_lift_off = analysis_row_type( &
     number=7, word='lift_off', has_film=.true., floats=.true., limit=limit_speed, &
-    limit_result='lift_off_speed_rpm', groups=of_bearings//' capacity ')
+    limit_result='lift_off_speed_rpm', groups=of_bearings//' ')
 
   type(analysis_row_type), parameter, public :: analysis_misalignment = analysis_row_type( &
     number=8, word='misalignment_allowance', has_film=.true., floats=.true., limit=limit_tilt, &
-    limit_result='misalignment_allowance', groups=of_bearings//' capacity ')
+    limit_result='misalignment_allowance', groups=of_bearings//' ')
 
   type(analysis_row_type), parameter, public :: analysis_transient = analysis_row_type( &
     number=9, word='transient', has_film=.true., floats=.true., holds=.true., &

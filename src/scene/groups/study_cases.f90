@@ -162,7 +162,7 @@ module gfb_study_cases
   !> What is asked for.
   type :: capacity_case_type
     integer :: limit = 0                 !! `limit_load`, `limit_speed` or `limit_tilt`; 0: none is
-    real(wp) :: smallest_gap = 0.0_wp    !! that the film may have [m]
+    real(wp) :: smallest_gap = 0.0_wp    !! that the film may have; 0: none is given [m]
     real(wp) :: contact_part = 1.0e-2_wp !! of the load that asperities may carry [1]
     integer :: tilt_axis = 1             !! about which the shaft tilts: 1 x, 2 y
   end type capacity_case_type
@@ -327,7 +327,7 @@ contains
     derives = sensitivity%asks(of_whirl) .or. sensitivity%asks(of_coefficients)
   end function derives_vibrations
 
-  !> Reads the group, which belongs to analyses that look for a limit.
+  !> Reads the group. Where no limit is looked for, its film is what the answer is measured against.
   subroutine read_capacity_case(keys, capacity, analysis)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(capacity_case_type), intent(out) :: capacity !! what `&capacity` asks for
@@ -338,17 +338,18 @@ contains
     by_gap = capacity%limit > 0 .and. capacity%limit /= limit_speed
     call keys%start_group('capacity', required=by_gap, optional=.not. by_gap, &
                           misplaced=analysis%refusal('capacity'), acts_on=acts_on_all)
-    call keys%idle(unless(capacity%limit > 0, 'no limit is looked for'))
-    call keys%real_key('smallest_gap', capacity%smallest_gap, 'm', &
-                       'film thickness at which load or tilt has reached its limit', positive, &
+    call keys%idle(unless(by_gap, 'the answer is measured against it, and does not follow it'))
+    call keys%real_key('smallest_gap', capacity%smallest_gap, 'm', 'smallest film that is '// &
+                       'wanted: at it load or tilt has reached its limit; of another analysis '// &
+                       '`film_margin` and the verdict say how far the film keeps it', positive, &
                        required=by_gap, &
                        default="required for 'load_capacity' and 'misalignment_allowance'")
+    call keys%idle(unless(capacity%limit > 0, 'no limit is looked for'))
     call keys%real_key('contact_part', capacity%contact_part, '1', &
                        'part of the load that asperities carry at the lift-off speed', &
                        between(0.0_wp, 1.0_wp))
     call keys%choice_key('tilt_axis', capacity%tilt_axis, axis_words, &
                          'axis about which the sleeve tilts for the misalignment allowance')
-    if (capacity%limit == 0) return
     if (capacity%limit == limit_speed) then
       call keys%rule('capacity', 'smallest_gap', keys%meant('capacity', 'smallest_gap'), &
                      "has no use with analysis = 'lift_off': that has its limit in contact_part")

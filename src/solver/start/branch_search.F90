@@ -94,7 +94,9 @@ contains
       call newton%log%line('equilibrium '//text(size(self%branch))//': e/C ('// &
                            text(answer%place(1)/clearance, 5)//', '//text(answer%place(2)/clearance, 5)// &
                            '), leading edge lifted '//lifts(answer%leading_edge_lift)//', trailing '// &
-                           lifts(answer%trailing_edge_lift)//' um (midplane, ends)'//lifts_of_pads(answer%pad_lift))
+                           lifts(answer%trailing_edge_lift)//' um (midplane, ends'// &
+                           trim(merge('; mean of the pads', '                  ', size(answer%pad_lift, 2) > 1))//')'// &
+                           lifts_of_pads(answer%pad_lift))
     end associate
   end subroutine collect
 
@@ -106,7 +108,7 @@ contains
 
     words = ''
     if (size(lift, 2) == 1) return
-    words = ', by pads'
+    words = ', leading by pads'
     do pad = 1, size(lift, 2)
       words = words//' '//text(lift(1, pad)*micrometres, 4)
       if (abs(lift(2, pad) - lift(1, pad)) > same_lifts) words = words//' ('//text(lift(2, pad)*micrometres, 4)//')'

@@ -17,6 +17,7 @@ module gfb_bearing_writing
   use gfb_run_context, only: run_context_type
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
+  use gfb_units, only: ice_point
   use gfb_quantity, only: quantity_type, add_quantity, place_of, number_in
   use gfb_result_names, only: add_result
   use gfb_shape_rules, only: thin
@@ -44,6 +45,7 @@ module gfb_bearing_writing
     character(len=16) :: head !! with the unit of the table
     real(wp) :: scale         !! table's number over SI number [1]
     character(len=16) :: beside = '' !! the vector's other component: its size shows rounding
+    real(wp) :: zero = 0.0_wp !! of the table's scale [SI]
   end type column_type
 
   type(column_type), parameter :: columns(*) = [ &
@@ -57,8 +59,8 @@ module gfb_bearing_writing
     column_type('attitude_angle', 'attitude [deg]', 1.0_wp), &
     column_type('minimum_gap', 'film [um]', 1.0e6_wp), &
     column_type('running_clearance', 'clearance [um]', 1.0e6_wp), &
-    column_type('shaft_temperature', 'shaft [K]', 1.0_wp), &
-    column_type('maximum_film_temperature', 'hottest film [K]', 1.0_wp), &
+    column_type('shaft_temperature', 'shaft [C]', 1.0_wp, zero=ice_point), &
+    column_type('maximum_film_temperature', 'hottest film [C]', 1.0_wp, zero=ice_point), &
     column_type('force_x', 'force_x [N]', 1.0_wp, 'force_y'), &
     column_type('force_y', 'force_y [N]', 1.0_wp, 'force_x'), &
     column_type('torque_x', 'torque_x [N m]', 1.0_wp, 'torque_y'), &
@@ -142,7 +144,7 @@ contains
     many = 0
     do i = 1, size(columns)
       if (columns(i)%name == column_name(scene) .or. many == widest) cycle
-      numbers(:, many + 1) = columns(i)%scale*history_values(history, trim(columns(i)%name))
+      numbers(:, many + 1) = columns(i)%scale*(history_values(history, trim(columns(i)%name)) - columns(i)%zero)
       if (.not. changes(numbers(:, many + 1), size_beside(columns(i), history))) cycle
       many = many + 1
       line = line//'  '//adjustr(columns(i)%head)
@@ -255,6 +257,7 @@ contains
       call add_quantity(summary, bearing%pad(1)%foil%sizes())
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
       if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
+      call add_film_margin(scene, answer%minimum_gap, summary)
       call add_quantity(summary, cost_quantities(result%cost))
       summary = asked_first(summary)
       columns = columns_of(scene, solution)
@@ -270,6 +273,7 @@ contains
       if (.not. result%plan%upwind) call show_unresolved(log, result%plan, answer%rough_peclet)
       call show_large_deflection(log, scene, answer%maximum_deflection)
       if (.not. converged) call show_early_end(log, scene, answer%minimum_gap)
+      if (converged) call show_thin_film(log, scene, summary)
       if (scene%model%foil%has_bumps) call show_contact_notes(log, scene%contact, answer%contact, answer%maximum_deflection)
       allocate (grids(0))
       call add_film_grid(bearing, scene%output, grids)
@@ -280,6 +284,32 @@ contains
       if (.not. allocated(error)) call write_coefficients(record, scene, context, error)
     end associate
   end subroutine write_bearing
+
+  !> Adds how many times the film is as thick as the one wanted, where that does not end a search.
+  subroutine add_film_margin(scene, gap, summary)
+    type(scene_type), intent(in) :: scene !! with the film wanted
+    real(wp), intent(in) :: gap !! smallest of the last state [m]
+    type(quantity_type), allocatable, intent(inout) :: summary(:)
+    real(wp) :: smallest
+
+    if (scene%capacity%limit > 0 .or. .not. scene%capacity%smallest_gap > 0.0_wp) return
+    smallest = gap
+    if (place_of('minimum_gap_over_time', summary) > 0) smallest = number_in(summary, 'minimum_gap_over_time')
+    call add_result(summary, 'film_margin', smallest/scene%capacity%smallest_gap)
+  end subroutine add_film_margin
+
+  !> Warns of a film that is thinner than the one wanted.
+  subroutine show_thin_film(log, scene, summary)
+    type(run_log_type), intent(in) :: log
+    type(scene_type), intent(in) :: scene !! with the film wanted
+    type(quantity_type), intent(in) :: summary(:)
+    real(wp) :: margin
+
+    if (place_of('film_margin', summary) == 0) return
+    margin = number_in(summary, 'film_margin')
+    if (margin < 1.0_wp) call log%warning('the smallest film, '//text(margin*scene%capacity%smallest_gap/micrometre, 4)// &
+      ' um, is thinner than smallest_gap of &capacity, '//text(scene%capacity%smallest_gap/micrometre, 4)//' um')
+  end subroutine show_thin_film
 
   !> Warns of cells so long, and without upwinding, that the pressure may oscillate, or that it does not fall behind the film as
   !> it should.

@@ -4,7 +4,7 @@ is measured against."""
 import math
 
 from gfb.report.answer import KELVIN, THINNEST, Results, direction, place_words
-from gfb.report.verdict import ONSET, all_margins
+from gfb.report.verdict import FILM, ONSET, all_margins
 
 
 def glance(summary, case, place=None, frequency=None):
@@ -23,7 +23,8 @@ def film(results):
     rough = results.key("shaft_contact%roughness")
     if rough:
         where += f"{', ' if where else ''}{results.value('minimum_gap')/rough:.3g} times the roughness"
-    yield THINNEST, words, where, False
+    margin, is_broken = against(results, FILM)
+    yield THINNEST, words, "; ".join(filter(None, (where, margin))), is_broken
 
 
 def centre(results):

@@ -15,6 +15,7 @@ OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is 
 AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
 NO_ANSWER = "no answer"  # of a part of a study
 ONSET = "onset_speed_rpm"
+FILM = "film_margin"
 SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known", "missing": "✗ no answer"}
 
 
@@ -92,7 +93,7 @@ def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
     clearance, touch_down = results.key("bearing%clearance", 0.0) or 0.0, results.key("solver%touch_down_gap", 0.0) or 0.0
     given = smallest_gap or results.key("capacity%smallest_gap")
     if given and given > 0.0:
-        yield compared("film", words, f"{1.0e6*given:.3g} um are wanted", gap/given)
+        yield compared("film", words, f"{1.0e6*given:.3g} um are wanted", gap/given, result=FILM)
     elif clearance > 0.0 and touch_down > OWN_TOUCH_DOWN*clearance:
         yield compared("film", words, f"below {1.0e6*touch_down:.3g} um it touches down", gap/touch_down)
     else:
