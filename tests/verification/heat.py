@@ -249,6 +249,8 @@ def check_refusal(checks, folder):
                 and "shaft " in refused.log.split("last state ")[1] and spent < 250)
     answer = solve(folder, "slower", changed(groups, operation={"speed_rpm": 60000.0, "load": (200.0, 10.0)}))
     checks.that(f"beside {answer['factorizations']:.0f} of an answer", answer["factorizations"] < 40)
+    checks.that("it is the temperature that runs away", "beyond it the temperature (thermal runaway) moves on by itself" in refused.log)
+    checks.below("what preload leaves of the clearance", (answer["running_clearance"] - 0.21*5.95e-5)/answer["running_play"] - 1.0, 1.0e-12)
 
 
 def check_few(checks, folder):

@@ -12,7 +12,7 @@ module gfb_continuation
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type, newton_report_type, solve_newton
   use gfb_ending, only: path_reached, path_touches, path_closes, path_folds, path_empties, path_lost, path_settings_type, &
-       path_report_type, heat_trail_type
+       path_report_type, heat_trail_type, mover_with_heat
   use gfb_text, only: text
   use gfb_work_bound, only: gives_up
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -60,6 +60,7 @@ module gfb_continuation
     type(heat_trail_type) :: heat      !! of the last answers
     character(len=:), allocatable :: why !! the last trial has failed
     character(len=:), allocatable :: course !! from where to where, in words; or empty
+    logical :: tells = .true.          !! how far it is
     Vec :: here, before                !! last two answers
     logical :: knows_rate = .false.    !! `rate` is that at the answer `here`
     Vec :: rate                        !! of the state along the path, by its parameter
@@ -94,7 +95,7 @@ contains
     type(path_settings_type), intent(in) :: settings !! limits of the path
     type(path_report_type), intent(out) :: report !! how far it led
     Vec, intent(in), optional :: rate !! of the state where the path begins, by the share of the path
-    character(len=*), intent(in), optional :: course !! from where to where it leads, for lines that say how far it is
+    character(len=*), intent(in), optional :: course !! from where to where it leads, for lines that say how far it is; empty: none do
 
     type(point_path_type) :: path
     real(wp) :: smallest
@@ -113,6 +114,7 @@ contains
     PetscCallA(VecCopy(bearing%state, path%here, ierr))
     path%course = ''
     if (present(course)) path%course = course
+    if (present(course)) path%tells = course /= ''
     path%knows_rate = present(rate)
     if (present(rate)) path%rate = rate
     ! A path that is long against its beginning needs steps that are small against the path.
@@ -153,7 +155,11 @@ contains
     integer, intent(out) :: iterations
     type(newton_report_type) :: solved
 
-    call self%newton%log%is_at(text(100.0_wp*self%at, 2)//' % of the way'//self%course, self%at)
+    if (self%tells) then
+      call self%newton%log%is_at(text(100.0_wp*self%at, 2)//' % of the way'//self%course, self%at)
+    else
+      call self%newton%log%is_at('')
+    end if
     self%bearing%point = point_between(self%start, self%target, trial)
     call predict(self, trial)
     call try_step(self%newton, may_be_cut, self%settings, solved)
@@ -345,7 +351,7 @@ contains
     if (path%bearing%has_contacts()) mover = 'top foil'
     do k = 1, size(path%bearing%block)
       associate (block => path%bearing%block(k))
-        if (block%mover /= '') mover = trim(block%mover)//' or the '//mover
+        if (block%mover /= '') mover = mover_with_heat(trim(block%mover), mover, path%settings%stands_cold, path%heat)
       end associate
     end do
     answer = bearing_answer(path%bearing)

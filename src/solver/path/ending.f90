@@ -9,6 +9,7 @@ module gfb_ending
   implicit none (type, external)
   private
   public :: path_reached, path_touches, path_touches_at, path_thins, path_closes, path_folds
+  public :: mover_with_heat
   public :: path_empties, path_is_drawn, path_heats_up, path_stopped, path_lost
 
   integer, parameter, public :: ending_lost = 0       !! nothing shows why no step converges
@@ -40,6 +41,7 @@ module gfb_ending
     integer :: straight_steps = huge(1)   !! Newton's, before they are bent at contacts
     real(wp) :: smallest_share = 0.0_wp   !! of a step, over the way that is gone [1]
     integer :: trial_iterations = 20      !! Newton's, of a step that can be cut
+    logical :: stands_cold = .false.      !! without heat there is an answer where the path leads
   end type path_settings_type
 
   !> How hot a film is at the last answers of a path.
@@ -48,7 +50,7 @@ module gfb_ending
     real(wp) :: at(3) = 0.0_wp          !! where they are on the path, the last one last [1]
     real(wp) :: temperature(3) = 0.0_wp !! largest of the film there, as the gas feels it [K]
   contains
-    procedure :: add => add_temperature, turns
+    procedure :: add => add_temperature, turns, is_calm
   end type heat_trail_type
 
   !> How far a path led.
@@ -137,6 +139,24 @@ contains
     ending = ending_of(ending_touch_down, 'the shaft touches down: the gap has closed to '// &
                          text(gap*micrometres, 3)//' um, beyond that '//lost%words())
   end function path_closes
+
+  !> What moves on by itself beyond a fold of a bearing with heat, as far as the path has shown it:
+  !> where there is an answer without heat, it is the temperature; where the film does not warm ever
+  !> faster towards the fold, it is not.
+  pure function mover_with_heat(temperature, solid, stands_cold, trail) result(mover)
+    character(len=*), intent(in) :: temperature, solid !! what either is called
+    logical, intent(in) :: stands_cold !! there is an answer without heat where the path leads
+    type(heat_trail_type), intent(in) :: trail !! of its last answers
+    character(len=:), allocatable :: mover
+
+    if (stands_cold) then
+      mover = temperature
+    else if (trail%is_calm()) then
+      mover = solid
+    else
+      mover = temperature//' or, which the path does not tell apart, the '//solid
+    end if
+  end function mover_with_heat
 
   !> The branch of answers turns back.
   pure function path_folds(mover) result(ending)
@@ -232,6 +252,18 @@ contains
       turns = at(3) + second*(top - t(3)) + bend*(top - t(3))**2 < failed
     end associate
   end function turns
+
+  !> Whether three answers show a film that does not warm ever faster along the path.
+  pure logical function is_calm(self)
+    class(heat_trail_type), intent(in) :: self !! the trail
+
+    is_calm = .false.
+    if (self%answers < 3) return
+    associate (way => self%at(2:) - self%at(:2), &
+               rise => self%temperature(2:) - self%temperature(:2))
+      is_calm = rise(2) <= 0.0_wp .or. rise(2)*way(1) <= rise(1)*way(2)
+    end associate
+  end function is_calm
 
   !> Whether the path led to the point that was asked for.
   elemental logical function converged(self)

@@ -8,6 +8,7 @@
 module gfb_heat_start
   use gfb_kinds, only: wp
   use gfb_text, only: text
+  use gfb_units, only: ice_point
   use gfb_film_surface, only: axial_coordinate
   use gfb_work_bound, only: gives_up
   use gfb_ending, only: ending_type, path_heats_up, ending_heated, ending_lost
@@ -108,6 +109,7 @@ contains
     heating%smallest_share = least_share
     heating%trial_iterations = most_at_once
     heating%look_for_folds = .false.
+    heating%stands_cold = .true.
   end function heating_settings
 
   !> Ends where the film makes more heat than can leave at any temperature.
@@ -184,8 +186,11 @@ contains
         where_it_ends = 'with heat at '//text(100.0_wp*point%speed/speed, 3)//' % of the speed'
       end if
       associate (heat => answer%heat)
-        where_it_ends = where_it_ends//': shaft '//text(felt(problem%bearing, heat%shaft_temperature), 4)//' K, film up to '// &
-                        text(felt(problem%bearing, heat%whole%maximum_film_temperature), 4)//' K'
+        associate (shaft => felt(problem%bearing, heat%shaft_temperature), &
+                   film => felt(problem%bearing, heat%whole%maximum_film_temperature))
+          where_it_ends = where_it_ends//': shaft '//text(shaft, 4)//' K, film up to '//text(film, 4)//' K ('// &
+                          text(shaft - ice_point, 3)//' and '//text(film - ice_point, 3)//' C)'
+        end associate
       end associate
       if (report%ending%kind == ending_lost) then
         call report%ending%add_words('lost '//where_it_ends//'; ', '')

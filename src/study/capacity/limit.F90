@@ -200,20 +200,26 @@ contains
     part = norm2(answer%solid_force(:translations))/norm2(point%load(:translations))
   end function contact_part
 
-  !> From where to where a step leads, for the lines that say how far a long run is.
+  !> From where to where a step leads, for the lines that say how far a long run is; empty where both are the same in their digits.
   pure function course(self, from, to) result(words)
     class(limit_type), intent(in) :: self !! the limit
     real(wp), intent(in) :: from, to !! loads [N], speeds [rad/s] or tilts [rad]
-    character(len=:), allocatable :: words
+    character(len=:), allocatable :: words, unit
+    real(wp) :: scale
 
     select case (self%kind)
     case (limit_load)
-      words = ' from '//text(from, 4)//' to '//text(to, 4)//' N'
+      scale = 1.0_wp
+      unit = ' N'
     case (limit_speed)
-      words = ' from '//text(from/rpm, 4)//' to '//text(to/rpm, 4)//' rpm'
+      scale = 1.0_wp/rpm
+      unit = ' rpm'
     case default
-      words = ' from '//text(from*milliradians, 4)//' to '//text(to*milliradians, 4)//' mrad'
+      scale = milliradians
+      unit = ' mrad'
     end select
+    words = ''
+    if (text(from*scale, 4) /= text(to*scale, 4)) words = ' from '//text(from*scale, 4)//' to '//text(to*scale, 4)//unit
   end function course
 
   !> The limit as a sentence without its end.
