@@ -23,13 +23,23 @@ module gfb_onset
   use gfb_dynamics, only: find_instability, mass_excess, find_whirl
   implicit none (type, external)
   private
-  public :: look_for_onset, judge_first_point
+  public :: look_for_onset, may_look_for_onset, judge_first_point
 
   real(wp), parameter :: tolerance = 1.0e-7_wp !! of the speed, relative [1]
   integer, parameter :: most_trials = 20       !! of equilibria between the points
   integer, parameter :: digits = 4             !! in the log
 
 contains
+
+  !> Whether the sweep may still come to an onset, which is then looked for.
+  pure logical function may_look_for_onset(solution) result(may)
+    type(bearing_solution_type), intent(in) :: solution !! at a point of the sweep
+
+    associate (scene => solution%scene)
+      may = scene%sweep%parameter == sweep_speed .and. scene%rotor%present .and. .not. scene%bearing%row%moves_along
+      may = may .and. .not. solution%record%dynamics%onset > 0.0_wp
+    end associate
+  end function may_look_for_onset
 
   !> Finds the speed where the growth of the rotor's least damped mode changes its sign, where it does so
   !> between the last two rows of the history; with a loss factor, which has no growth, where the critical mass passes
@@ -46,8 +56,7 @@ contains
 
     associate (scene => solution%scene, bearing => solution%bearing, newton => solution%newton, &
                history => solution%record%history, onset => solution%record%dynamics%onset)
-      if (scene%sweep%parameter /= sweep_speed .or. .not. scene%rotor%present .or. scene%bearing%row%moves_along) return
-      if (onset > 0.0_wp .or. size(history) < 2) return
+      if (.not. may_look_for_onset(solution) .or. size(history) < 2) return
       associate (before => history(size(history) - 1)%quantity, last => history(size(history))%quantity)
         speed = [number_in(before, 'speed_rpm'), number_in(last, 'speed_rpm')]
         call look_up_excess(scene, before, excess(1), known(1))

@@ -14,7 +14,7 @@ module gfb_sweep_study
   use gfb_study, only: run_points
   use gfb_bearing_study, only: bearing_study_type
   use gfb_answer_record, only: record_answer, fix_shaft
-  use gfb_onset, only: look_for_onset
+  use gfb_onset, only: look_for_onset, may_look_for_onset
   use gfb_ending, only: path_reached, path_touches_at, path_lost
   use gfb_signals, only: stop_words
   use gfb_scene, only: scene_type
@@ -135,6 +135,7 @@ contains
       left = size(sweep%values) - point
       if (point > 1 .and. left > 0) then
         line = line//', about '//text((wall_time() - begun)/real(point - 1, wp)*real(left, wp), 2)//' s left'
+        if (may_look_for_onset(self%solution)) line = line//', a search for the onset of whirl not counted'
       end if
       call context%log%stage(line)
       if (left > 0) then
