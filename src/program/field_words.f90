@@ -41,12 +41,12 @@ module gfb_field_words
     field_word_type('thermal_runaway runaway seizure', &
       'the shaft grows with its temperature, the film thins and heats it more, until no answer '// &
       'is left', 'thermal%shaft_expansion thermal%sleeve_expansion thermal%shaft_conductance', &
-      'running_clearance energy_imbalance', 'equilibrium', 'thermal', 'heat'), &
+      'running_clearance running_play energy_imbalance', 'equilibrium', 'thermal', 'heat'), &
     field_word_type('margin safety_factor load_margin', &
-      'a limit over what the bearing is asked for: of load, speed or tilt; and of '// &
-      'stability, the stiffness of the mode nearest to a change', &
+      'a limit over what the bearing is asked for: of load, speed or tilt; of the film over '// &
+      'the smallest one wanted; and of stability, the stiffness of the mode nearest to a change', &
       'capacity%smallest_gap capacity%contact_part', &
-      'load_capacity lift_off_speed_rpm misalignment_allowance stability_margin', &
+      'film_margin load_capacity lift_off_speed_rpm misalignment_allowance stability_margin', &
       'load_capacity', '', 'capacity'), &
     field_word_type('load_capacity capacity', &
       'the largest load that leaves the smallest film', 'capacity%smallest_gap', &
@@ -102,9 +102,9 @@ module gfb_field_words
     field_word_type('power_loss friction_torque windage drag', &
       'what the film, and contacts with the shaft, take from it', 'gas%viscosity', &
       'friction_torque power_loss', 'equilibrium', '', 'results'), &
-    field_word_type('preload lobe pad three_pad', &
+    field_word_type('preload lobe pad three_pad play', &
       'pads whose centres lie off the bearing''s', 'pads%count pads%preload pads%preload_offset', &
-      'minimum_gap_1', 'equilibrium', 'pads', 'pads'), &
+      'minimum_gap_1 running_play', 'equilibrium', 'pads', 'pads'), &
     field_word_type('shim wear bore groove', &
       'a bore that is not round: waves, shims, a measured profile', &
       'bore%shim_height bore%wave_amplitude bore%profile_height', '', 'equilibrium', 'bore', &
@@ -133,6 +133,24 @@ module gfb_field_words
     field_word_type('sweep parameter_study map', &
       'one key over several values, each from the answer of the last', &
       'sweep%parameter sweep%values', 'key_value', 'equilibrium', 'sweep', 'sweeps'), &
+    field_word_type('peclet peclet_number galerkin supg upwind upwinding weighting', &
+      'how the film''s elements are weighed: the Peclet number of a cell is how much more gas '// &
+      'the shaft drags through it than pressure drives; up to about 2 Galerkin''s plain '// &
+      'weights are better, above they let the pressure oscillate, and SUPG weighs upstream', &
+      'model%film_scheme mesh%circumferential_elements', 'maximum_peclet', '', '', 'method'), &
+    field_word_type('soft_contacts soft_contact release released two_way_contacts', &
+      'how a search from nothing begins: contacts of the foils are soft springs that also '// &
+      'pull; they are stiffened and released step by step, and the answer has those of the '// &
+      'case alone', &
+      'contact%friction_top contact%friction_sleeve', 'lifted_length', '', '', 'method'), &
+    field_word_type('newton newtons_method newton_step residual iteration factorization', &
+      'Newton''s method: the residual is what the equations leave open; each iteration solves '// &
+      'them linearised, by factors of their matrix', &
+      'solver%residual_tolerance solver%maximum_iterations solver%maximum_factorizations', &
+      'newton_iterations factorizations', '', '', 'method'), &
+    field_word_type('fold turning_point snap branch_of_answers', &
+      'where a branch of answers turns back: beyond it there is none near by, and shaft, top '// &
+      'foil or temperature moves on by itself', 'sweep%turn_folds', 'fold', '', '', 'branches'), &
     field_word_type('no_answer not_converged refused diverged', &
       'what the sentences of a run without an answer mean, and what to change', &
       'solver%maximum_factorizations', 'outcome reason', '', '', 'no_answer')]
