@@ -18,12 +18,13 @@ import pathlib
 import re
 import sys
 import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gfb.case import Case, CaseError
-from gfb.design_work import Part, Progress, compute_all, tilt_words
-from gfb.report.answer import LAST_STATE, Results, carried_by, film_words
+from gfb.design_work import Part, Progress, compute_all, duration, tilt_words
+from gfb.report.answer import LAST_STATE, Results, carried_by, film_words, why_none
 from gfb.report.main import read_run, write_page
 from gfb.report.thinnest import SAME
 from gfb.report.verdict import NO_ANSWER, ONSET, Margin, compared, margins_of, not_computed, sentence
@@ -98,8 +99,8 @@ class Design:
 def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "design", smallest_gap: float | None = None, grade: float = GRADE,
            processes: int = 1, gfb: str | os.PathLike[str] | None = None, tell: Callable[[str], None] = say, seconds: int = 0,
            filled: Callable[[Design], object] | None = None) -> Design:
-    """Runs all parts of the study that apply to a case with a load; grade: of the rotor's balance [mm/s]; seconds: after which a part is
-    stopped, 0: none is; filled: called with what there is after each part. Raises CaseError where the case itself is wrong."""
+    """Runs all parts of the study that apply to a case with a load; grade: of the rotor's balance [mm/s]; seconds: after which the program
+    stops a part, 0: none is; filled: called with what there is after each part. Raises CaseError where the case itself is wrong."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     parts = parts_of(case, smallest_gap, grade)
@@ -143,7 +144,8 @@ def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]
     speed = float(case["operation%speed_rpm"])
     gap = gap_of(case, smallest_gap)
     whirl = "whirl over the speed" if "rotor%mass" in case else "critical mass over the speed"
-    parts = [with_analysis(case, "point", "at the operating point", "linear_dynamics", ("dynamics", "rotor", "foil_damping"))]
+    given: dict[str, Any] = {"capacity": {"smallest_gap": gap}} if smallest_gap or "capacity%smallest_gap" in case else {}  # else none is the case's own
+    parts = [with_analysis(case, "point", "at the operating point", "linear_dynamics", ("dynamics", "rotor", "foil_damping"), **given)]
     if thrust:
         parts.append(Part("directions", "load from every direction", left_out="a runner is pressed along its axis"))
     else:
@@ -156,7 +158,8 @@ def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]
         with_analysis(case, "misalignment", f"misalignment left, to a film of {1.0e6*gap:.3g} um", "misalignment_allowance",
                       capacity={"smallest_gap": gap})]
     if "shaft_contact" in case.groups:
-        parts.append(with_analysis(case, "lift_off", "lift-off speed", "lift_off"))
+        carried: dict[str, Any] = {"capacity": {"contact_part": case["capacity%contact_part"]}} if "capacity%contact_part" in case else {}
+        parts.append(with_analysis(case, "lift_off", "lift-off speed", "lift_off", **carried))
     else:
         parts.append(Part("lift_off", "lift-off speed", left_out="the case has no &shaft_contact: roughness and pressure of the asperities"))
     if thrust:
@@ -164,7 +167,7 @@ def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]
     else:
         parts.append(with_analysis(case, "whirl", whirl, "linear_dynamics", ("dynamics", "rotor", "foil_damping"), sweep={
             "parameter": "speed_rpm", "values": tuple(part*speed for part in WHIRL_SPEEDS)}))
-    parts += [orbit_of(case, grade, speed, thrust), tolerances_of(case)]
+    parts += [orbit_of(case, grade, speed, thrust, given), tolerances_of(case)]
     return parts
 
 
@@ -184,14 +187,14 @@ def with_analysis(case: Case, name: str, question: str, analysis: str, kept: Seq
     return Part(name, question, one, states=points if analysis in ("equilibrium", "linear_dynamics") else 0, work=WORK[name])
 
 
-def orbit_of(case: Case, grade: float, speed: float, thrust: bool) -> Part:
-    """The steady orbit under the unbalance that a grade allows: mass times grade over the angular speed."""
+def orbit_of(case: Case, grade: float, speed: float, thrust: bool, given: dict[str, Any]) -> Part:
+    """The steady orbit under the unbalance that a grade allows: mass times grade over the angular speed; given: the film wanted."""
     question = f"orbit under balance grade G {grade:g}"
     if thrust or "rotor%mass" not in case:
         return Part("orbit", question, left_out="a runner is not followed over time" if thrust else "the case has no &rotor with a mass")
     unbalance = float(case["rotor%mass"])*1.0e-3*grade/(speed*math.pi/30.0)
     return with_analysis(case, "orbit", question, "transient", ("rotor", "foil_damping"), unbalance={"unbalance": unbalance},
-                         transient={"turns": ORBIT_TURNS, "steady_tolerance": ORBIT_STEADY})
+                         transient={"turns": ORBIT_TURNS, "steady_tolerance": ORBIT_STEADY}, **given)
 
 
 def tolerances_of(case: Case) -> Part:
@@ -230,8 +233,7 @@ def rows_of(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]]) -> list[t
             there = f"{LAST_STATE} is below" + (f"; {points} of {part.states} points" if part.states > 1 else "")
             rows.append((part.question, part.stopped, f"{there}; another call goes on", True))
         elif not run["converged"]:
-            why = ": ".join(str(run["summary"][name]["value"]) for name in ("outcome", "reason") if name in run["summary"])
-            rows.append((part.question, NO_ANSWER, f"{why}; {LAST_STATE} is below", True))
+            rows.append((part.question, NO_ANSWER, f"{why_none(run['summary'])}; {LAST_STATE} is below", True))
         elif part.name == "point":
             rows += run["glance"]
         else:
@@ -367,7 +369,8 @@ def main() -> int:
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR", help="folder; default: results/CASE.design")
     parser.add_argument("--smallest-gap", type=float, metavar="M", help=f"film at which a limit is reached [m]; default: the case's, or {SMALLEST_GAP:g}")
     parser.add_argument("--grade", type=float, default=GRADE, metavar="G", help=f"balance grade of the rotor, ISO 21940 [mm/s]; default: {GRADE:g}")
-    parser.add_argument("--seconds", type=seconds_of, default=0, metavar="S", help="stop a part after so many seconds, and keep what it has; default: none is")
+    parser.add_argument("--seconds", type=seconds_of, default=0, metavar="S",
+                        help="stop a part after so many seconds, and keep what it has; its pictures are drawn behind them; default: none is")
     parser.add_argument("--processes", type=int, default=max(1, (os.cpu_count() or 2)//2), metavar="N", help="parts at a time")
     parser.add_argument("--gfb", help="the program; default: as gfb from Python finds it")
     options = parser.parse_args()
@@ -376,9 +379,11 @@ def main() -> int:
 
     def fill(found: Design) -> None:
         nonlocal page
-        first, page = page is None, found.page(options.gfb)
-        if first:
-            say(f"{page} is there and fills")
+        began, first = time.monotonic(), page is None
+        page = found.page(options.gfb)
+        drawn = f"drawn in {duration(time.monotonic() - began)}" + ", which --seconds does not count"*bool(options.seconds)
+        if first or options.seconds:
+            say(f"{page} is there and fills: {drawn}" if first else f"the page is {drawn}")
 
     try:
         case = Case.read(options.case)

@@ -84,6 +84,12 @@ def place_words(results):
     return ""
 
 
+def why_none(summary):
+    """Why a run has no answer, in words; summary: {name: {"value": ...}}."""
+    outcome, reason = (str(summary.get(name, {}).get("value", "")) for name in ("outcome", "reason"))
+    return ": ".join(filter(None, (outcome.replace("_", " "), reason)))
+
+
 def ended(summary):
     """How a run without an answer ended, in a sentence."""
     outcome, reason = (summary.get(name, {}).get("value", "") for name in ("outcome", "reason"))
