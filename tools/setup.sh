@@ -221,23 +221,33 @@ make_target() {
 
 # A line now and then with the time left, none where the build is short.
 show_progress() {
-  local line began=$SECONDS next=$((SECONDS + 3)) done_of
+  local line began=$SECONDS next=$((SECONDS + 3)) done_of all
+  local -a lately=("$SECONDS" 0) before=("$SECONDS" 0) # when, and how many were done: of the last half minute or more
   while IFS= read -r line; do
     if [[ $line == '['*/*']'* ]] && ((SECONDS >= next)); then
       done_of=${line%%]*}
       done_of=${done_of#[}
-      say "building $done_of$(time_left "$((SECONDS - began))" "${done_of%/*}" "${done_of#*/}")"
+      all=${done_of#*/} done_of=${done_of%/*}
+      if [[ $done_of =~ ^[0-9]+$ ]]; then
+        say "building $done_of/$all$(time_left "$((SECONDS - began))" "$done_of" "$all" "$((SECONDS - before[0]))" "$((done_of - before[1]))")"
+        if ((SECONDS - lately[0] >= 30)); then
+          before=("${lately[@]}") lately=("$SECONDS" "$done_of")
+        fi
+      fi
       next=$((SECONDS + 10))
     fi
   done
 }
 
-# time_left SECONDS DONE ALL: the same pace to the end; nothing where that would be a guess.
+# time_left SECONDS DONE ALL [SECONDS DONE]: at the pace so far, or that of the last time where it is slower, as the first steps are short ones and
+# others may have begun to use the machine; nothing where that would be a guess.
 time_left() {
-  local left
+  local left latest
   [[ $2 =~ ^[0-9]+$ && $3 =~ ^[0-9]+$ ]] || return 0
   (($1 >= 5 && $2 >= 20)) || return 0
   left=$(($1 * ($3 - $2) / $2))
+  latest=$((${4:-0} * ($3 - $2) / (${5:-1} > 0 ? ${5:-1} : 1)))
+  ((left >= latest)) || left=$latest
   if ((left >= 90)); then
     printf ', about %s min left' "$(((left + 30) / 60))"
   else
