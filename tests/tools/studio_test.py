@@ -305,9 +305,9 @@ class Places(InFolder):
         self.assertEqual((list(layout["colorway"]), layout["font"]["family"].split(", ")[0]), (colours, font))
         self.assertEqual((layout["xaxis"]["title"]["text"], layout["yaxis"]["title"]["text"]), ("a [um]", "b [kPa]"))
         self.assertIn(f"body {{ font-family: {font}, ", PAGE.get_template("look.css").render())
-        for page in ("report/page.html", "studio/page.css"):
+        for page in ("report/page.html", "studio/page.css", "studio/page.py"):
             text = (ROOT/"tools/gfb"/page).read_text(encoding="utf-8")
-            self.assertEqual(re.findall(r"Verdana|#a00|#17652b|\.sign\.|2b4a6f", text), [], page)
+            self.assertEqual(re.findall(r"Verdana|#a00|#17652b|\.sign\.|2b4a6f|2b6cb0|b2502f", text), [], page)
 
     def test_films_go_from_0_to_360_degrees_with_the_scale_of_the_report(self):
         """A pad over 360 degrees is in two, with its value there; the gap has a logarithmic scale, one for all that stand side by side."""

@@ -9,6 +9,7 @@ from nicegui import app, background_tasks, ui
 from nicegui import run as workers
 
 from gfb.case import Case, CaseError
+from gfb.look import HEADER
 from gfb.namelist import namelist_value
 from gfb.report.main import PAGE, svg_of
 from gfb.report.sketch import case_sketch
@@ -78,7 +79,7 @@ class Tab:
     def build(self):
         """All of the page."""
         ui.add_head_html(LEFT + MARKED)
-        ui.colors(primary="#2b4a6f")
+        ui.colors(primary=HEADER)
         ui.add_css(PAGE.get_template("look.css").render())
         ui.add_css(pathlib.Path(__file__).with_name("page.css"))
         with ui.header().classes("top"):
