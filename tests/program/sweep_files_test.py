@@ -15,8 +15,8 @@ from gfb_run import Bearing, Checks, case_groups, solve  # noqa: E402
 
 BEARING = Bearing()
 HEAT = {"shaft_conductance": 0.1, "shaft_expansion": 1.2e-5, "sleeve_conductance": 1.0, "top_foil": "given", "top_foil_temperature": 300.0}
-HOT = {"running_clearance": ("clearance [um]", 1.0e6), "shaft_temperature": ("shaft [K]", 1.0),
-       "maximum_film_temperature": ("hottest film [K]", 1.0)}  # in the log's table: its head, and table's number over SI number
+HOT = {"running_clearance": ("clearance [um]", 1.0e6, 0.0), "shaft_temperature": ("shaft [C]", 1.0, 273.15),
+       "maximum_film_temperature": ("hottest film [C]", 1.0, 273.15)}  # in the log's table: its head, table's number over SI number, and its zero
 KEYS = {"parameter": "bearing%clearance", "values": (20.0e-6, 21.0e-6)}
 
 
@@ -85,10 +85,10 @@ def check_heat(checks, folder):
     hot = sweep(folder, "hot", {"parameter": "load", "values": (20.0, 30.0)}, heat=HEAT)
     head, *rows = re.search(r"^points of the sweep\n-+\n(.*?)\n\n", hot.log, re.M | re.S)[1].splitlines()
     heads, rows = re.split(r"  +", head.strip()), [line.split() for line in rows]
-    for name, (column, scale) in HOT.items():
+    for name, (column, scale, zero) in HOT.items():
         told = [float(row[heads.index(column)]) for row in rows] if column in heads else []
         checks.that(f"{column}: at both points", len(told) == 2)
-        checks.that(f"{column}: {name}", all(abs(one/(scale*number) - 1.0) < 1.0e-4 for one, number in zip(told, hot.history()[name])))
+        checks.that(f"{column}: {name}", all(abs(one/(scale*(number - zero)) - 1.0) < 1.0e-4 for one, number in zip(told, hot.history()[name])))
 
 
 def main():
