@@ -174,6 +174,10 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(rows["lift-off speed"], ("5,000 rpm", "the speed is 20,000 rpm: 4 times", False))
         self.assertEqual(rows["onset of whirl"], ("15,000 rpm", "the speed is 20,000 rpm: 0.75 times", True))
         self.assertEqual(rows["rotor's least damped mode"], ("100 Hz", "it grows", True))
+        hot = row("running_clearance", 31.0e-6, "m") | row("running_play", 3.0e-6, "m")
+        rows |= {words: (value, verdict, bad) for words, value, verdict, bad in glance(hot, case)}
+        self.assertEqual((rows["clearance when it runs"], rows["its play under the preload"]),
+                         (("31 um", "20 um cold", False), ("3 um", "on foils at rest", False)))
         case["rotor%mass"], case["operation%load"] = 0.1, (-3.0, 4.0)
         rows = {words: (verdict, bad) for words, _, verdict, bad in glance(some, case)}
         self.assertEqual((rows["load capacity"], rows["critical mass"]), (("the load is 5 N: 3 times", False), ("this bearing carries 0.1 kg of the rotor: 2.5 times", False)))

@@ -134,3 +134,5 @@ def heat(results):
     if results.value("running_clearance") is not None:
         cold = results.key("bearing%clearance")
         yield "clearance when it runs", results.words("running_clearance"), f"{1.0e6*cold:.4g} um cold" if cold else "", False
+    if results.value("running_play") is not None:
+        yield "its play under the preload", results.words("running_play"), "on foils at rest", False
