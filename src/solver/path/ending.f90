@@ -142,7 +142,7 @@ contains
 
   !> What moves on by itself beyond a fold of a bearing with heat, as far as the path has shown it:
   !> where there is an answer without heat, it is the temperature; where the film does not warm ever
-  !> faster towards the fold, it is not.
+  !> faster towards the fold, it is not; where it does, temperature and the rest go together.
   pure function mover_with_heat(temperature, solid, stands_cold, trail) result(mover)
     character(len=*), intent(in) :: temperature, solid !! what either is called
     logical, intent(in) :: stands_cold !! there is an answer without heat where the path leads
@@ -153,6 +153,8 @@ contains
       mover = temperature
     else if (trail%is_calm()) then
       mover = solid
+    else if (trail%answers >= 3) then
+      mover = temperature//', which rises ever faster, and with it the '//solid
     else
       mover = temperature//' or, which the path does not tell apart, the '//solid
     end if
