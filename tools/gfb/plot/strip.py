@@ -1,6 +1,7 @@
 """Pictures of loaded bump strips: deflection per bump, force-displacement loops, contact states."""
 
 import os
+import textwrap
 
 import numpy
 from matplotlib import pyplot
@@ -16,6 +17,7 @@ KINDS = ("bumps", "loop", "contact")
 STYLES = ("-", "--", "-.", ":")
 MOST_MARKED = 30   # rows of a history whose points are marked
 MOST_LABELLED = 24 # bars that carry their value
+WIDEST_LABEL = 60 # letters of a line of a legend
 SHORTEST = 5       # letters of a common name that says something
 LEAST = 1.0e-12    # of the largest force: a load below it is none
 
@@ -164,7 +166,7 @@ def with_start(values):
 
 def draw_loops(paths, files):
     """Force against travel; and the same less the straight line to the full load, where loops open."""
-    figure, (chart, opened) = pyplot.subplots(1, 2, figsize=(10.5, 4.4), layout="constrained")
+    figure, (chart, opened) = pyplot.subplots(1, 2, figsize=(10.5, 5.4), layout="constrained")
     words = set()
     for i, (file, label) in enumerate(zip(files, labels(paths, files))):
         word, way = travel(file)
@@ -174,9 +176,9 @@ def draw_loops(paths, files):
         if not (abs(force[top]) > 0.0 and abs(way[top]) > 0.0):
             stop(f"{paths[i]}: nothing is loaded, there is no loop")
         if "dissipated_energy" in file["summary"]:
-            label += f"\n{MILLI*file['summary/dissipated_energy'][()]:.4g} mJ"
+            label = f"{MILLI*file['summary/dissipated_energy'][()]:.4g} mJ: {label}"
         look = {"linestyle": STYLES[i % len(STYLES)], "marker": "o" if len(force) <= MOST_MARKED else "",
-                "markersize": 3.0, "linewidth": 1.3, "label": label}
+                "markersize": 3.0, "linewidth": 1.3, "label": textwrap.fill(label, WIDEST_LABEL)}
         for one, height in ((chart, force), (opened, force - force[top]/way[top]*way)):
             (line,) = one.plot(MICRO*way, height, **look)
             draw_arrows(one, MICRO*way, height, force, line.get_color())
@@ -187,7 +189,7 @@ def draw_loops(paths, files):
     opened.set_title("the same, less the straight line to the full load", fontsize=10)
     for one in (chart, opened):
         one.grid(alpha=0.3)
-    chart.legend(fontsize=8, title="with the work lost in the cycle", title_fontsize=8)
+    chart.legend(fontsize=8, title="with the work lost in the cycle", title_fontsize=8, loc="upper left", bbox_to_anchor=(0.0, -0.17))  # beside no loop
     figure.suptitle(common_name(paths), fontsize=11)
     return figure
 
