@@ -66,6 +66,13 @@ class Mutants(unittest.TestCase):
         self.assertNotEqual(mutants.draw([self.path], 4, 3, self.root), mutants.draw([self.path], 4, 4, self.root))
         self.assertEqual(mutants.unit_of(pathlib.Path("src/model/bearing/pad.F90")), "unit_model_bearing")
 
+    def test_every_folder_has_tests(self):
+        """A folder whose mutants nothing would be run for ends the whole draw; src/bench is no part of the program."""
+        for folder in {path.parent for path in (PROJECT/"src").glob("*/**/*.[fF]90")} - {PROJECT/"src/bench"}:
+            unit = mutants.unit_of((folder/"a.f90").relative_to(PROJECT))
+            tests = [path.parent for path in (PROJECT/"tests/unit").rglob("*_test.pf")]
+            self.assertIn(unit, {"unit_" + "_".join(path.relative_to(PROJECT/"tests/unit").parts) for path in tests})
+
     def test_only_sources_are_changed(self):
         done = subprocess.run([sys.executable, PROJECT/"tools/mutants", "--list", PROJECT/"tests"], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
