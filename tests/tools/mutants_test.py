@@ -30,6 +30,7 @@ contains
     gap = gap*clearance(2) &
       - 0.25_wp
     PetscCallA(VecSet(gap - 1, ierr))
+    if (allocated(gap)) call destroy_gap(gap + 1)
   end subroutine set_gap
 end module gfb_gap
 """
