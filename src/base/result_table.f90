@@ -38,11 +38,12 @@ module gfb_result_table
   !> What has a result of a name: a bit each, and its words in the manual.
   integer, parameter, public :: bearing = 1, sweep = 2, tilting = 4, branch = 8, strip = 16, &
                                 load_step = 32, modes = 64, accuracy = 128, ensemble = 256, &
-                                origin = 512, sample = 1024, transient = 2048, periodic = 4096
+                                origin = 512, sample = 1024, transient = 2048, periodic = 4096, &
+                                machine = 8192
   character(len=*), parameter, public :: study_words(*) = [character(len=22) :: &
     'bearing', 'history of a sweep', 'sweep of tilt', '`--branches`', 'strip', &
     'history of a strip', 'modes', '`&accuracy`', 'table of cases', '`/provenance`', '`&sample`', &
-    '`&transient`', '`&periodic`']
+    '`&transient`', '`&periodic`', '`&shaft`']
 
   !> A row of the table.
   type, public :: result_type
@@ -65,17 +66,17 @@ module gfb_result_table
   character(len=*), parameter, public :: own_quotient = 'ratio' !! that over the key's
 
   type(result_type), parameter :: every_study(*) = [ &
-    result_type('analysis', '', word, bearing + strip + modes, 'kind of analysis'), &
-    result_type('converged', '1', truth, bearing + strip + modes + ensemble + sample, &
+    result_type('analysis', '', word, bearing + strip + modes + machine, 'kind of analysis'), &
+    result_type('converged', '1', truth, bearing + strip + modes + machine + ensemble + sample, &
       'whether {the answer was found}'), &
-    result_type('outcome', '', word, bearing + strip + modes + sample, &
+    result_type('outcome', '', word, bearing + strip + modes + machine + sample, &
       'how the run ended that has no answer', &
       'of a run without an answer: `stopped` by a signal, `out_of_time` by `--time-limit`, '// &
       '`refused`: shown that there is none, `lost`: nothing shows why, `gave_up` at a bound of '// &
       'its work, `not_reached`: less than was asked for, `failed` in a part'), &
-    result_type('reason', '', word, bearing + strip + modes + sample + ensemble, &
+    result_type('reason', '', word, bearing + strip + modes + machine + sample + ensemble, &
       'why there is no answer; empty where there is'), &
-    result_type('program', '', word, bearing + strip + modes + sample + ensemble, &
+    result_type('program', '', word, bearing + strip + modes + machine + sample + ensemble, &
       'that computed it: its version and commit', varies=.true.)]
 
   type(result_type), parameter :: sweeps(*) = [ &
@@ -118,8 +119,8 @@ module gfb_result_table
     result_type('force_<a>', 'N', number, bearing, '{film} force on the sleeve, <a>', &
       'force of the film, and of solid contact, on the sleeve; in equilibrium equal to `load`', &
       asked=.true.), &
-    result_type('force_<a>_<n>', 'N', number, bearing, &
-      'share of pad n in the force on the sleeve, <a>', &
+    result_type('force_<a>_<n>', 'N', number, bearing + machine, &
+      'share of pad n in the force on the sleeve, <a>; of a machine of bearing n', &
       'of several pads: share of each in `force_x`, `force_y`'), &
     result_type('torque_<a>', 'N m', number, bearing, '{film} torque on the shaft about <a>', &
       'torque of the film, and of solid contact, on the shaft', asked=.true.), &
@@ -136,7 +137,8 @@ module gfb_result_table
       'with `smallest_gap` of `&capacity` where no limit is looked for: `minimum_gap` over it, '// &
       'of a shaft that moves `minimum_gap_over_time`; below 1 the film is thinner than wanted', &
       nodal=.true.), &
-    result_type('minimum_gap_<n>', 'm', number, bearing, 'smallest film thickness over pad n', &
+    result_type('minimum_gap_<n>', 'm', number, bearing + machine, &
+      'smallest film thickness over pad n; of a machine of bearing n', &
       'of several pads: smallest film thickness over each', nodal=.true.), &
     result_type('minimum_gap_midplane', 'm', number, bearing, 'smallest film thickness at z = 0', &
       'smallest film thickness at z = 0 and at the bearing''s edges', asked=.true., nodal=.true.), &
@@ -454,10 +456,10 @@ module gfb_result_table
       'stiffness and damping at all frequencies, each entry over the largest of its block', &
       'stiffness and damping at all frequencies, each entry over the largest of its 2 x 2 '// &
       'block: as `coefficients_error` and `coefficients_order` only', asked=.true.), &
-    result_type('growth_rate', '1/s', number, bearing, &
+    result_type('growth_rate', '1/s', number, bearing + machine, &
       'growth of the rotor''s least damped mode, exp(growth t); negative: it dies out', &
       'with `&rotor`: growth of its least damped mode, exp(growth t); negative: it dies out'), &
-    result_type('whirl_frequency', 'rad/s', number, bearing, &
+    result_type('whirl_frequency', 'rad/s', number, bearing + machine, &
       'circular frequency of that mode', 'the same: circular frequency of that mode'), &
     result_type('damping_ratio', '1', number, bearing, &
       'damping of that mode over critical damping; negative: it grows', &
@@ -573,21 +575,38 @@ module gfb_result_table
       'bump foil of shells: the same on the lines that are retained'), &
     result_type('distinct_super_elements', '1', total, bearing + strip, 'condensed once each', &
       'bump foil of shells: kinds of super-element, condensed once each'), &
-    result_type('unknowns', '1', total, bearing + strip + modes, 'unknowns of the equations', &
+    result_type('unknowns', '1', total, bearing + strip + modes + machine, &
+      'unknowns of the equations', &
       'of the equations'), &
-    result_type('newton_iterations', '1', total, bearing + strip + load_step, &
+    result_type('newton_iterations', '1', total, bearing + machine + strip + load_step, &
       '{iterations of all solves}', &
       'of all solves, those on coarse meshes too; in a bearing''s history from the start of '// &
       'the run on, in a strip''s of that step'), &
-    result_type('factorizations', '1', total, bearing + strip + load_step + modes, &
+    result_type('factorizations', '1', total, bearing + machine + strip + load_step + modes, &
       '{matrix factorizations of all solves}', &
       'the same of factorizations of matrices; modes: of the shifted stiffness'), &
-    result_type('factorizations_finest', '1', total, bearing, &
+    result_type('factorizations_finest', '1', total, bearing + machine, &
       '{matrix factorizations on the finest mesh}', 'those of them on the finest mesh'), &
-    result_type('wall_time', 's', number, bearing + strip + modes + ensemble, &
+    result_type('wall_time', 's', number, bearing + strip + modes + machine + ensemble, &
       '{from start to answer}', 'from start to answer', varies=.true.), &
-    result_type('peak_memory', 'B', number, bearing + strip + modes, &
+    result_type('peak_memory', 'B', number, bearing + strip + modes + machine, &
       'sum over ranks of the largest held', varies=.true.)]
+
+  !> Of a machine: n is a bearing, in the order of its list.
+  type(result_type), parameter :: machines(*) = [ &
+    result_type('mass', 'kg', number, machine, 'of shaft and discs'), &
+    result_type('centre_of_mass', 'm', number, machine, 'z of it'), &
+    result_type('transverse_inertia', 'kg m^2', number, machine, &
+      'about an axis across, through the centre of mass'), &
+    result_type('polar_inertia', 'kg m^2', number, machine, 'about the axis of the shaft'), &
+    result_type('eccentricity_<a>_<n>', 'm', number, machine, &
+      'e_<a> of bearing n, of the sleeve relative to the shaft'), &
+    result_type('tilt_<a>_<n>', 'rad', number, machine, &
+      'of the sleeve of bearing n against its journal, about <a>'), &
+    result_type('torque_<a>_<n>', 'N m', number, machine, &
+      'torque of the film of bearing n on the shaft about <a>'), &
+    result_type('maximum_pressure_<n>', 'Pa', number, machine, 'largest pressure of bearing n'), &
+    result_type('power_loss_<n>', 'W', number, machine, 'of bearing n')]
 
   type(result_type), parameter :: ensembles(*) = [ &
     result_type('member', '', word, ensemble, 'name of the case file', &
@@ -641,5 +660,5 @@ module gfb_result_table
 
   type(result_type), parameter, public :: result_rows(*) = [ &
     every_study, bearings, heats, transients, tilts, judgements, strips, vibrations, costs, &
-    sweeps, ensembles, origins]
+    machines, sweeps, ensembles, origins]
 end module gfb_result_table

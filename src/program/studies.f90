@@ -19,6 +19,7 @@ module gfb_studies
   use gfb_branches_study, only: branches_study_type
   use gfb_strip_study, only: strip_study_type
   use gfb_modes_study, only: modes_study_type
+  use gfb_machine_study, only: machine_study_type
   implicit none (type, external)
   private
   public :: create_study, run_scene
@@ -40,7 +41,9 @@ contains
 
     if (branches) call check_branches(scene, error)
     if (allocated(error)) return
-    if (scene%general%analysis%loads_strip) then
+    if (allocated(scene%machine)) then
+      allocate (machine_study_type :: study)
+    else if (scene%general%analysis%loads_strip) then
       allocate (strip_study_type :: study)
     else if (scene%general%analysis%finds_modes) then
       allocate (modes_study_type :: study)

@@ -94,7 +94,7 @@ module gfb_plausible_values
     range_type(1.0e2_wp, 1.0e8_wp, 'Pa', 'bar,kPa,MPa', 'gas%density_table_pressure'), &
     range_type(1.0e-3_wp, 2.0e3_wp, 'kg/m^3', 'g/cm^3,g/m^3', 'gas%density_table_density'), &
     range_type(100.0_wp, 2.0e6_wp, 'rpm', 'krpm', &
-               'operation%speed_rpm transient%final_speed_rpm'), &
+               'operation%speed_rpm machine%speed_rpm transient%final_speed_rpm'), &
     range_type(0.0_wp, 2.0e-3_wp, 'm', 'mm,um', &
                'operation%eccentricity operation%axial_eccentricity '// &
                'operation%leading_edge_lift operation%leading_edge_lift_edge'), &
@@ -145,7 +145,26 @@ module gfb_plausible_values
     range_type(1.0e-4_wp, 1.0e4_wp, 'kg', 'g', 'rotor%mass'), &
     range_type(1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2', &
                'rotor%transverse_inertia rotor%polar_inertia'), &
-    range_type(1.0e-3_wp, 5.0_wp, 'm', 'mm,um', 'rotor%bearing_distance'), &
+    range_type(1.0e-3_wp, 5.0_wp, 'm', 'mm,um', 'rotor%bearing_distance shaft%lengths'), &
+    range_type(1.0e-3_wp, 1.0_wp, 'm', 'mm,um', 'shaft%outer_diameters'), &
+    range_type(0.0_wp, 1.0_wp, 'm', 'mm,um', 'shaft%inner_diameters'), &
+    range_type(1.0e9_wp, 2.0e12_wp, 'Pa', 'GPa,MPa', 'shaft%youngs_modulus shaft%shear_modulus'), &
+    range_type(500.0_wp, 2.5e4_wp, 'kg/m^3', 'g/cm^3,t/mm^3', 'shaft%density'), &
+    range_type(0.3_wp, 1.2_wp, '1', '%', 'shaft%shear_coefficient'), &
+    range_type(0.0_wp, 1.0e-2_wp, 's', 'ms,us', 'shaft%material_damping'), &
+    range_type(0.0_wp, 10.0_wp, 'm', 'mm,um', 'discs%positions bearings%positions '// &
+               'loads%positions unbalance%positions machine%stations'), &
+    range_type(1.0e-4_wp, 1.0e4_wp, 'kg', 'g', 'discs%masses'), &
+    range_type(1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2', 'discs%polar_inertias '// &
+               'discs%transverse_inertias'), &
+    range_type(0.0_wp, 5.0e-3_wp, 'm', 'um,mm', 'bearings%offset_x bearings%offset_y'), &
+    range_type(0.0_wp, 0.05_wp, 'rad', 'deg', 'bearings%misalignment_x bearings%misalignment_y'), &
+    range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'loads%forces_x loads%forces_y'), &
+    range_type(0.0_wp, 1.0e4_wp, 'N m', 'N mm', 'loads%moments_x loads%moments_y'), &
+    range_type(0.0_wp, 1.0e3_wp, 'm/s^2', 'mm/s^2', 'machine%gravity'), &
+    range_type(0.0_wp, 1.0e7_wp, 'rad/s', 'rpm', 'dynamics%largest_frequency'), &
+    range_type(1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm', 'unbalance%values'), &
+    range_type(0.0_wp, 6.3_wp, 'rad', 'deg', 'unbalance%angles'), &
     range_type(0.0_wp, 1.0e5_wp, '1', '', 'transient%turns transient%steps_per_turn'), &
     range_type(1.0e-8_wp, 1.0e3_wp, 's', 'ms,us', 'transient%duration transient%ramp_time'), &
     range_type(1.0e-10_wp, 0.1_wp, '1', '%', 'transient%time_tolerance'), &
@@ -181,6 +200,7 @@ module gfb_plausible_values
     reason_type('capacity%contact_part', 'between 0 and 1 by its rule'), &
     reason_type('top_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('bump_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
+    reason_type('shaft%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%shaft_poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%carry_over', 'from 0 to 1 by its rule'), &
     reason_type('contact%exponent', 'bounded by its rule'), &

@@ -21,7 +21,8 @@ module gfb_scene
   use gfb_foil_row, only: foil_row_type, foil_unknown
   use gfb_model_case, only: model_case_type, read_model_case
   use gfb_operation_case, only: operation_case_type, read_operation_case, size_of_gap
-  use gfb_analysis_row, only: analysis_row_type, limit_tilt
+  use gfb_analysis_row, only: analysis_row_type, limit_tilt, machine_row
+  use gfb_machine_case, only: machine_case_type, read_machine_case, machine_group
   use gfb_scene_case, only: scene_case_type, needs_type, read_scene_case
   use gfb_strip_load_case, only: strip_load_case_type, read_strip_load_case
   use gfb_solid_contact, only: solid_contact_type
@@ -41,6 +42,7 @@ module gfb_scene
     character(len=:), allocatable :: warnings  !! of improbable values, one a line
     character(len=:), allocatable :: hints     !! of keys that have moved, one a line
     type(scene_case_type) :: general
+    type(machine_case_type), allocatable :: machine !! a shaft in several bearings
     type(bearing_case_type) :: bearing
     type(bore_case_type) :: bore
     type(gas_case_type) :: gas
@@ -80,6 +82,10 @@ contains
     type(analysis_row_type) :: state !! that finds it, where vibrations about a state are asked for
 
     call read_scene_case(keys, scene%general)
+    if (keys%line_of_group(machine_group) > 0) then
+      scene%general%asked = machine_row(scene%general%asked)
+      scene%general%analysis = scene%general%asked
+    end if
     call read_modes_case(keys, scene%modes, scene%general%asked)
     state = analysis_of_state(scene%general%asked, keys%holds('operation', 'load') .or. &
                               keys%holds('operation', 'axial_load'), &
@@ -133,6 +139,9 @@ contains
       call read_sensitivity_case(keys, scene%sensitivity, analysis)
       call read_accuracy_case(keys, scene%accuracy, analysis)
       call read_sample_case(keys, scene%sample, analysis%refusal('sample'))
+      allocate (scene%machine)
+      call read_machine_case(keys, scene%machine, analysis)
+      if (.not. scene%machine%present) deallocate (scene%machine)
     end associate
     scene%general%analysis = state
   end subroutine read_groups

@@ -6,6 +6,11 @@ from gfb.tool import stop
 MOST = 12  # letters of a default with blanks that still has the narrow column
 PURPOSES = {  # what a group is for, and where more of it stands
     "scene": "What is computed.",
+    "shaft": "A shaft that bends: with it the case is a machine ([machine.md](machine.md)).",
+    "discs": "Rigid discs on that shaft.",
+    "bearings": "The bearings of a machine, a case file each ([machine.md](machine.md#the-case)).",
+    "loads": "Forces and moments on the shaft of a machine.",
+    "machine": "Speed, weight and places of a machine.",
     "modes": "Natural modes of a strip or of its parts ([strip.md](strip.md)).",
     "bearing": "Size and clearance of the bearing.",
     "model": "How foils and film are modelled ([model_and_mesh.md](model_and_mesh.md)).",

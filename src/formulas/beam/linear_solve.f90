@@ -24,11 +24,19 @@ module gfb_linear_solve
       real(wp), intent(inout) :: a(lda, n), b(ldb, nrhs)
       integer, intent(out) :: ipiv(n), info
     end subroutine dgesv
+    !> LAPACK: general complex equations.
+    pure subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+      import :: wp
+      implicit none (type, external)
+      integer, intent(in) :: n, nrhs, lda, ldb
+      complex(wp), intent(inout) :: a(lda, n), b(ldb, nrhs)
+      integer, intent(out) :: ipiv(n), info
+    end subroutine zgesv
   end interface
 
-  !> Equations of any matrix, for one right side or several.
+  !> Equations of any matrix, for one right side or several; complex for one.
   interface solve_general
-    procedure :: solve_one, solve_several
+    procedure :: solve_one, solve_several, solve_complex
   end interface solve_general
 
 contains
@@ -76,4 +84,20 @@ contains
     right_sides = columns(1:n, :)
     solved = info == 0
   end subroutine solve_several
+
+  !> The same of complex equations for one right side.
+  pure subroutine solve_complex(matrix, right_side, solved)
+    complex(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
+    complex(wp), intent(inout) :: right_side(:) !! (n): in the right side, out the solution [SI]
+    logical, intent(out) :: solved !! the matrix is regular
+    complex(wp), allocatable :: factor(:, :), column(:, :)
+    integer :: pivots(size(right_side)), n, info
+
+    n = size(right_side)
+    factor = matrix
+    column = reshape(right_side, [n, 1])
+    call zgesv(n, 1, factor, max(1, n), pivots, column, max(1, n), info)
+    right_side = column(:, 1)
+    solved = info == 0
+  end subroutine solve_complex
 end module gfb_linear_solve

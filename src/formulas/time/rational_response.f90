@@ -43,7 +43,7 @@ module gfb_rational_response
     real(wp), allocatable, private :: scale(:) !! makes the coordinates' entries alike
     type(fit_type), private :: fit, fit_before !! to all samples; to all but the last
   contains
-    procedure, non_overridable :: add, has, fits, at, doubt, next_sample, poles
+    procedure, non_overridable :: add, has, fits, at, doubt, next_sample, poles, realise
   end type rational_response_type
 
   interface
@@ -195,6 +195,21 @@ contains
       rate = self%fit%unit*pack(numerator, finite)/pack(denominator, finite)
     end associate
   end function poles
+
+  !> The function as equations of states w that follow a motion q:
+  !> \( (V - s S) w = R q \), and the force is \( Z(s) q = L w \).
+  pure subroutine realise(self, value, slope, right, left)
+    class(rational_response_type), intent(in) :: self !! with samples that fit
+    complex(wp), allocatable, intent(out) :: value(:, :) !! V (state, state) [1]
+    complex(wp), allocatable, intent(out) :: slope(:, :) !! S [s]
+    complex(wp), allocatable, intent(out) :: right(:, :) !! R (state, motion) [SI]
+    complex(wp), allocatable, intent(out) :: left(:, :)  !! L (force, state) [SI]
+
+    value = self%fit%value
+    slope = self%fit%slope/self%fit%unit
+    right = self%fit%right/spread(self%scale, 1, size(value, 1))
+    left = self%fit%left/spread(self%scale, 2, size(value, 1))
+  end subroutine realise
 
   !> The function through the samples.
   pure function fit_of(self) result(fit)

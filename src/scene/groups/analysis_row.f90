@@ -3,6 +3,7 @@
 module gfb_analysis_row
   implicit none (type, external)
   private
+  public :: machine_row
 
   integer, parameter, public :: limit_load = 1  !! the largest that leaves the film
   integer, parameter, public :: limit_speed = 2 !! the one that lifts the asperities off
@@ -43,6 +44,7 @@ module gfb_analysis_row
     logical :: holds = .false.       !! its place is given; of both what `&operation` has
     logical :: loads_strip = .false. !! a bump foil alone, in load steps
     logical :: finds_modes = .false. !! natural ones of a foil, or a part of it
+    logical :: is_machine = .false.  !! of a shaft in several bearings, each a case of its own
     integer :: limit = 0             !! `limit_load`, ...: of what a limit is looked for; 0: none is
     character(len=22) :: limit_result = '' !! its name among the results
     character(len=160) :: groups = ''   !! of the case file, where others have no use for them
@@ -98,6 +100,14 @@ module gfb_analysis_row
     number=10, word='periodic', has_film=.true., floats=.true., &
     groups=of_bearings//' periodic rotor unbalance foil_damping ')
 
+  character(len=*), parameter :: of_machines = ' shaft discs bearings loads machine '
+
+  !> Those of a machine; each is called as that of one bearing.
+  type(analysis_row_type), parameter :: machine_rows(*) = [ &
+    analysis_row_type(number=1, word='equilibrium', is_machine=.true., groups=of_machines), &
+    analysis_row_type(number=5, word='linear_dynamics', is_machine=.true., &
+                      groups=of_machines//' dynamics unbalance ')]
+
   !> Each at the place of its number.
   type(analysis_row_type), parameter, public :: analysis_rows(*) = &
     [analysis_equilibrium, analysis_fixed_position, analysis_strip, analysis_modes, &
@@ -143,6 +153,17 @@ module gfb_analysis_row
 
 contains
 
+  !> The same analysis of a machine; where a machine has none it is that of one bearing.
+  pure type(analysis_row_type) function machine_row(analysis) result(row)
+    type(analysis_row_type), intent(in) :: analysis !! of one bearing
+    integer :: i
+
+    row = analysis
+    do i = 1, size(machine_rows)
+      if (machine_rows(i)%number == analysis%number) row = machine_rows(i)
+    end do
+  end function machine_row
+
   !> Whether the case file says which analysis is asked for.
   pure logical function is_known(self) result(known)
     class(analysis_row_type), intent(in) :: self !! the analysis, as far as it is known
@@ -178,5 +199,7 @@ contains
     words = ''
     if (self%takes(group) .or. .not. self%is_known()) return
     words = "has no use with analysis = '"//trim(self%word)//"'"
+    if (self%is_machine) words = 'has no use in the case of a machine: bearings have files of '// &
+      'their own'
   end function refusal
 end module gfb_analysis_row

@@ -55,6 +55,9 @@ module gfb_motion_cases
     real(wp) :: angle = 0.0_wp        !! of it at the beginning [rad]
     real(wp) :: couple = 0.0_wp       !! of a rotor that tilts [kg m^2]
     real(wp) :: couple_angle = 0.0_wp !! of that at +z at the beginning [rad]
+    real(wp), allocatable :: position(:) !! of those of a machine along its shaft [m]
+    real(wp), allocatable :: value(:)    !! of each [kg m]
+    real(wp), allocatable :: angles(:)   !! of each at the beginning [rad]
   end type unbalance_case_type
 
   integer, parameter, public :: tangent_stick = 1 !! contacts that rub stick under vibration
@@ -70,6 +73,7 @@ module gfb_motion_cases
     integer :: contact_tangent = tangent_stick
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
     real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
+    real(wp) :: largest_frequency = 0.0_wp    !! of modes of a machine; 0: by its speed [rad/s]
     logical :: stability = .true.             !! critical mass and modes too; not a key
   end type dynamics_case_type
 
@@ -208,7 +212,7 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(unbalance_case_type), intent(out) :: unbalance !! what `&unbalance` says
     type(analysis_row_type), intent(in) :: analysis !! of the case file
-    character(len=:), allocatable :: no_couple
+    character(len=:), allocatable :: no_couple, no_list, no_share
     logical :: drives
 
     drives = analysis%takes('unbalance')
@@ -216,11 +220,30 @@ contains
                        "has no use with analysis = 'periodic': the shaft moves in x and y alone")
     call keys%start_group('unbalance', optional=.not. drives, &
                           misplaced=analysis%refusal('unbalance'))
+    no_list = unless(analysis%is_machine, 'needs &shaft: one bearing has `unbalance`')
+    no_share = unless(.not. analysis%is_machine, 'has no use beside &shaft: `values` are those '// &
+                      'of the machine')
+    if (analysis%is_machine) no_couple = no_share
     call keys%real_key('unbalance', unbalance%static, 'kg m', &
                        'unbalance that this bearing carries: mass times its distance from '// &
-                       'the axis', not_negative)
+                       'the axis', not_negative, useless=no_share)
     call keys%real_key('unbalance_angle', unbalance%angle, 'rad', 'direction of the unbalance '// &
-                       'at the beginning, of the time or of a period, from x towards y', any_value)
+                       'at the beginning, of the time or of a period, from x towards y', &
+                       any_value, useless=no_share)
+    call keys%real_list_key('positions', unbalance%position, longest_list, 'm', 'where the '// &
+                            'unbalances of a machine are, from the first end of its shaft', &
+                            not_negative, .false., 'none', useless=no_list)
+    call keys%real_list_key('values', unbalance%value, longest_list, 'kg m', 'mass times '// &
+                            'distance from the axis of each', not_negative, .false., 'none', &
+                            useless=no_list)
+    call keys%real_list_key('angles', unbalance%angles, longest_list, 'rad', 'direction of '// &
+                            'each at the beginning, from x towards y', any_value, .false., '0', &
+                            useless=no_list)
+    call keys%rule('unbalance', 'values', size(unbalance%value) /= size(unbalance%position), &
+                   'must have one value a position')
+    if (size(unbalance%angles) == 0) unbalance%angles = 0.0_wp*unbalance%position
+    call keys%rule('unbalance', 'angles', size(unbalance%angles) /= size(unbalance%position), &
+                   'must have one value a position')
     call keys%real_key('couple_unbalance', unbalance%couple, 'kg m^2', &
                        'of a rotor that tilts on two bearings: an unbalance times its distance '// &
                        'along the axis from an equal and opposite one', not_negative, &
@@ -253,17 +276,26 @@ contains
     type(dynamics_case_type), intent(out) :: dynamics !! what `&dynamics` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(analysis_row_type), intent(in) :: analysis !! of the case file
+    character(len=:), allocatable :: of_bearing
 
-    dynamics%present = analysis%takes('dynamics')
+    dynamics%present = analysis%takes('dynamics') .and. .not. analysis%is_machine
+    of_bearing = unless(.not. analysis%is_machine, 'has no use beside &shaft: each motion of a '// &
+                        'machine has its own frequency')
     call keys%start_group('dynamics', required=dynamics%present, optional=.not. dynamics%present, &
                           misplaced=analysis%refusal('dynamics'), acts_on=acts_on_all)
     call keys%idle(unless(dynamics%present, needs_dynamics))
     call keys%real_list_key('frequencies', dynamics%frequencies, longest_list, 'rad/s', &
                             'circular frequencies at which stiffness and damping are asked for', &
-                            positive, .false., 'required without `frequency_ratios`')
+                            positive, .false., 'required without `frequency_ratios`', &
+                            useless=of_bearing)
     call keys%real_list_key('frequency_ratios', dynamics%ratios, longest_list, '1', &
                             'the same over the speed of the shaft', positive, .false., &
-                            'required without `frequencies`')
+                            'required without `frequencies`', useless=of_bearing)
+    call keys%real_key('largest_frequency', dynamics%largest_frequency, 'rad/s', 'circular '// &
+                       'frequency up to which the modes of a machine are looked for', positive, &
+                       default='1.5 times the speed', &
+                       useless=unless(analysis%is_machine, 'needs &shaft: one bearing has '// &
+                       '`frequencies`'))
     dynamics%frequencies = frequencies_at(dynamics, angular_speed(operation%speed_rpm))
     call keys%real_key('interpolation_tolerance', dynamics%interpolation_tolerance, '1', &
                        'further frequencies are put between those given until straight lines '// &

@@ -19,7 +19,7 @@ module gfb_case_keys
   public :: rule_type, any_value, positive, not_negative, at_least, from_to, from_below, between
 
   integer, parameter :: single = 0            !! values of a key that takes no list
-  integer, parameter :: longest_string = 500  !! characters
+  integer, parameter, public :: longest_string = 500  !! characters
   integer, parameter :: most_words = 100      !! in a list of words
 
   !> The keys of a case file, kind by kind.
@@ -27,7 +27,7 @@ module gfb_case_keys
   contains
     procedure, non_overridable :: real_key, real_vector_key, real_list_key
     procedure, non_overridable :: integer_key, logical_key, string_key
-    procedure, non_overridable :: choice_key, choice_or_keys_key, words_key, names_key
+    procedure, non_overridable :: choice_key, choice_or_keys_key, words_key, names_key, strings_key
     procedure, non_overridable, private :: take_numbers, has_no_use
   end type case_keys_type
 
@@ -346,4 +346,40 @@ contains
     end do
     call self%end_key(quoted(names), names /= '', .false.)
   end subroutine names_key
+
+  !> A list of free texts, such as names of files.
+  subroutine strings_key(self, name, values, most, meaning, required)
+    class(case_keys_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: name !! of the key
+    character(len=longest_string), allocatable, intent(out) :: values(:) !! as many as given
+    integer, intent(in) :: most !! values at most
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
+    logical, intent(in) :: required !! where its group is there
+    character(len=:), allocatable :: problem, shown, words
+    integer, allocatable :: elements(:)
+    integer :: i
+
+    call self%describe(name, 'list of strings', '', meaning)
+    call self%begin_key('', most, elements, required)
+    allocate (values(size(elements)))
+    shown = ''
+    do i = 1, size(elements)
+      problem = ''
+      values(i) = ''
+      words = self%file%value_text(elements(i))
+      if (self%file%values(elements(i))%kind /= value_string) then
+        problem = 'must be in quotes'
+      else if (len(words) > len(values)) then
+        problem = 'must not be longer than '//text(len(values))//' characters'
+      else if (words == '') then
+        problem = 'must not be empty'
+      else
+        values(i) = words
+      end if
+      call self%complain_value(elements(i), i, problem)
+      if (i > 1) shown = shown//', '
+      shown = shown//quoted(trim(values(i)))
+    end do
+    call self%end_key(shown, size(values) > 0, .false.)
+  end subroutine strings_key
 end module gfb_case_keys

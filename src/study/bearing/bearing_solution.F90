@@ -33,6 +33,7 @@ module gfb_bearing_solution
   use gfb_run_context, only: run_context_type
   implicit none (type)
   private
+  public :: new_solution
 
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, public :: bearing_solution_type
@@ -58,6 +59,12 @@ module gfb_bearing_solution
   end type bearing_solution_type
 
 contains
+
+  !> Makes room for a solution: its first values pass over the stack, which is not to hold them for longer.
+  subroutine new_solution(solution)
+    type(bearing_solution_type), allocatable, intent(out) :: solution !! empty
+    allocate (solution)
+  end subroutine new_solution
 
   !> Settings of the solvers, and an empty record.
   subroutine set_up(self, scene, plan, context)

@@ -312,13 +312,14 @@ contains
     type(scene_type), intent(out) :: member !! what is asked of it
     real(wp), intent(out) :: value(:) !! [its unit] of each parameter
     type(error_type), allocatable, intent(out) :: error !! which rule is broken
-    type(scene_type) :: there
+    type(scene_type), allocatable :: there ! large
 
     member = sample_member(scene, number)
     associate (asked => scene%sample)
       value = asked%parameter%value*asked%factors**even_deviations( &
               member%bump_foil%random%seed, size(value))
       if (size(value) == 0) return
+      allocate (there)
       call scene_with_keys(scene, asked%parameter, value, there, error)
       if (.not. allocated(error)) member = sample_member(there, number)
     end associate

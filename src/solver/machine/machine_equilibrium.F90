@@ -1,0 +1,290 @@
+#include "gfb_petsc.h"
+!> Equilibrium of a machine: the shaft's motions at its journals with which films carry it.
+!>
+!> Each bearing is solved with its journal held, and says the force on the shaft f and how that
+!> follows the journal, \( Z = -df/da \), exactly. Newton's method on the few motions a of all
+!> journals couples them through the condensed shaft,
+!>
+!> $$ (S + Z) \, \delta a = g + f(a) - S a, $$
+!>
+!> so that no force is a step late. Z is made once, and follows what steps teach by Broyden's rank-one
+!> update; it is made anew where a step makes too little of the imbalance go.
+module gfb_machine_equilibrium
+  use gfb_kinds, only: wp
+  use gfb_text, only: text
+  use gfb_linear_solve, only: solve_general
+  use gfb_film_load, only: acts_on, film_forces
+  use gfb_operating_point, only: operating_point_type
+  use gfb_run_log, only: run_log_type
+  use gfb_signals, only: stop_agreed, stop_words
+  use gfb_shaft, only: motions
+  use gfb_held_shaft, only: held_shaft_type
+  use gfb_machine, only: machine_type, hold_at_rest, place_of_sleeve
+  use gfb_bearing_system, only: bearing_system_type
+  use gfb_newton, only: newton_type
+  use gfb_continuation, only: path_settings_type, path_report_type, follow_path
+  use gfb_start_position, only: solve_at
+  use gfb_vibration_law, only: vibration_type
+  use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
+  implicit none (type)
+  private
+  public :: find_machine_equilibrium, journal_force, move_journal
+
+  integer, parameter :: force_of(motions) = [1, 2, 4, 5] !! of the film's forces, those on a journal
+  integer, parameter :: ways = 2 !! translations of a journal
+  integer, parameter :: most_steps = 60 !! of Newton's method
+  real(wp), parameter :: tolerance = 1.0e-10_wp !! of a motion, over the clearance [1]
+  real(wp), parameter :: balanced = 1.0e-9_wp   !! imbalance over the load [1]
+  real(wp), parameter :: longest = 0.25_wp      !! step of a journal, over its clearance [1]
+  real(wp), parameter :: slow = 0.3_wp          !! of the imbalance that is left by a step with which Z is made anew [1]
+  real(wp), parameter :: shortest = 1.0e-3_wp   !! share of a step that is tried [1]
+
+  !> A bearing of the machine, with its solver.
+  type, public :: machine_bearing_type
+    type(bearing_system_type), pointer :: bearing => null()
+    type(newton_type), pointer :: newton => null()
+    type(path_settings_type) :: path
+  end type machine_bearing_type
+
+  !> What was found.
+  type, public :: machine_equilibrium_type
+    logical :: converged = .false.
+    character(len=:), allocatable :: reason !! why not
+    real(wp), allocatable :: motion(:) !! a: of all journals, one after the other [m], [rad]
+    real(wp), allocatable :: force(:)  !! f: of the films on the shaft [N], [N m]
+    type(held_shaft_type) :: held
+    real(wp) :: imbalance = 0.0_wp     !! that is left, over the load [1]
+    integer :: steps = 0
+    integer :: linearisations = 0      !! of a bearing for Z, each one factorization of complex equations
+  end type machine_equilibrium_type
+
+contains
+
+  !> Forces and moments of film and asperities on a journal.
+  function journal_force(bearing) result(force)
+    class(bearing_system_type), intent(in) :: bearing !! solved
+    real(wp) :: force(motions) !! along x and y, about x and y [N], [N m]
+    real(wp) :: all_forces(film_forces)
+
+    all_forces = -acts_on*bearing%reaction()
+    force = all_forces(force_of)
+  end function journal_force
+
+  !> Solves a bearing with its journal held at another place, in one step or along a path.
+  subroutine move_journal(one, place, speed, moved, reason)
+    type(machine_bearing_type), intent(inout) :: one !! on failure at the last place that was reached
+    real(wp), intent(in) :: place(motions) !! e_x, e_y, tilt about x and y [m], [rad]
+    real(wp), intent(in) :: speed !! of the shaft [rad/s]
+    logical, intent(out) :: moved
+    character(len=:), allocatable, intent(out) :: reason !! why not; empty where it was
+    type(operating_point_type) :: target, before
+    type(path_report_type) :: report
+    real(wp) :: unknown(one%bearing%local_size())
+
+    call one%bearing%get_unknowns(unknown)
+    before = one%bearing%point
+    target = before
+    target%place(force_of) = place
+    target%speed = speed
+    call solve_at(one%bearing, one%newton, target, .true., one%path, report)
+    if (.not. report%converged()) then
+      one%bearing%point = before
+      call one%bearing%set_unknowns(unknown)
+      call follow_path(one%bearing, one%newton, target, 0.5_wp, one%path, report)
+    end if
+    moved = report%converged()
+    reason = ''
+    if (.not. moved) reason = report%reason()
+  end subroutine move_journal
+
+  !> How the force on a journal follows it, at the present answer.
+  subroutine find_stiffness(one, count, stiffness, found)
+    type(machine_bearing_type), intent(inout) :: one
+    integer, intent(in) :: count !! motions that its film feels
+    real(wp), intent(out) :: stiffness(count, count) !! Z [N/m], [N], [N m]
+    logical, intent(out) :: found
+    type(dynamic_response_type) :: response
+    complex(wp) :: coefficient(motions, motions)
+
+    call create_response(one%bearing, vibration_type(stick=.false.), response)
+    call find_coefficients(one%bearing, response, (0.0_wp, 0.0_wp), coefficient, found, only_translations=count == ways)
+    stiffness = real(coefficient(:count, :count), wp)
+    one%newton%factorizations = one%newton%factorizations + response%factorizations
+    call destroy_response(response)
+  end subroutine find_stiffness
+
+  !> From bearings that are solved somewhere, each with its journal held, to the equilibrium of the machine.
+  subroutine find_machine_equilibrium(machine, bearing, motion, log, answer)
+    type(machine_type), intent(in) :: machine
+    type(machine_bearing_type), intent(inout) :: bearing(:) !! one a journal
+    real(wp), intent(in) :: motion(:) !! a, to begin with [m], [rad]
+    type(run_log_type), intent(in) :: log !! where lines go
+    type(machine_equilibrium_type), intent(out) :: answer
+    real(wp), allocatable :: stiffness(:, :), step(:), left(:), before(:), size_of(:), of_force(:)
+    real(wp) :: share, norm, norm_before
+    logical :: regular, done
+
+    answer%reason = ''
+    call hold_at_rest(machine, machine%count, answer%held, regular)
+    if (.not. regular) then
+      answer%reason = 'nothing holds the shaft: one journal alone needs journal_tilts'
+      return
+    end if
+    allocate (answer%motion, source=motion)
+    allocate (answer%force, mold=motion)
+    call set_sizes(machine, bearing, size_of, of_force)
+    call move_all(machine, bearing, motion, answer, regular)
+    if (.not. regular) return
+    call linearise_all(machine, bearing, stiffness, answer)
+    if (answer%reason /= '') return
+    left = imbalance_of(answer)
+    norm = norm2(left/of_force)
+    do while (answer%steps < most_steps)
+      if (stop_agreed()) then
+        answer%reason = stop_words()
+        return
+      end if
+      call log%is_on('machine, step '//text(answer%steps + 1)//', imbalance '//text(norm, 2))
+      step = left/of_force
+      call solve_general((answer%held%stiffness + stiffness)*spread(size_of, 1, size(step))/ &
+                         spread(of_force, 2, size(step)), step, regular)
+      if (.not. regular) exit
+      step = size_of*step
+      share = min(1.0_wp, longest/max(maxval(abs(step/size_of)), tiny(1.0_wp)))
+      done = share >= 1.0_wp .and. maxval(abs(step/size_of)) < tolerance
+      before = [answer%motion, answer%force]
+      norm_before = norm
+      call take_step(machine, bearing, step, share, answer)
+      if (answer%reason /= '') return
+      answer%steps = answer%steps + 1
+      left = imbalance_of(answer)
+      norm = norm2(left/of_force)
+      call log%detail('machine: step '//text(answer%steps)//', share '//text(share, 3)//', imbalance '//text(norm, 3))
+      if (done .or. norm < balanced*1.0e-2_wp) exit
+      if (norm > slow*norm_before .and. share >= 1.0_wp) then
+        call linearise_all(machine, bearing, stiffness, answer)
+        if (answer%reason /= '') return
+      else
+        call learn(before, answer, machine%count, size_of, stiffness)
+      end if
+    end do
+    call log%is_on('')
+    answer%imbalance = norm
+    answer%converged = norm < balanced
+    if (.not. answer%converged) answer%reason = 'shaft and films did not come to balance in '//text(answer%steps)//' steps'
+  end subroutine find_machine_equilibrium
+
+  !> How large a motion of each journal and a force on it are.
+  subroutine set_sizes(machine, bearing, size_of, of_force)
+    type(machine_type), intent(in) :: machine
+    type(machine_bearing_type), intent(in) :: bearing(:)
+    real(wp), allocatable, intent(out) :: size_of(:)  !! clearance, and that over half the width [m], [rad]
+    real(wp), allocatable, intent(out) :: of_force(:) !! load, and that times half the width [N], [N m]
+    real(wp) :: load, half
+    integer :: i, first
+
+    allocate (size_of(machine%count*size(bearing)), of_force(machine%count*size(bearing)))
+    load = max(sum(abs(machine%force(::2))), tiny(1.0_wp)*1.0e20_wp)
+    do i = 1, size(bearing)
+      half = 0.5_wp*bearing(i)%bearing%pad(1)%film%width
+      first = (i - 1)*machine%count
+      size_of(first + 1:first + ways) = bearing(i)%bearing%clearance
+      of_force(first + 1:first + ways) = load
+      size_of(first + ways + 1:first + machine%count) = bearing(i)%bearing%clearance/half
+      of_force(first + ways + 1:first + machine%count) = load*half
+    end do
+  end subroutine set_sizes
+
+  !> What is left of the balance, g + f - S a [N], [N m].
+  pure function imbalance_of(answer) result(left)
+    type(machine_equilibrium_type), intent(in) :: answer
+    real(wp) :: left(size(answer%motion))
+    left = answer%held%force + answer%force - matmul(answer%held%stiffness, answer%motion)
+  end function imbalance_of
+
+  !> Solves all bearings with their journals elsewhere.
+  subroutine move_all(machine, bearing, motion, answer, moved)
+    type(machine_type), intent(in) :: machine
+    type(machine_bearing_type), intent(inout) :: bearing(:)
+    real(wp), intent(in) :: motion(:) !! a [m], [rad]
+    type(machine_equilibrium_type), intent(inout) :: answer !! gets motions and forces
+    logical, intent(out) :: moved
+    character(len=:), allocatable :: reason
+    real(wp) :: force(motions)
+    integer :: i
+
+    do i = 1, size(bearing)
+      associate (first => (i - 1)*machine%count + 1, last => i*machine%count)
+        call move_journal(bearing(i), place_of_sleeve(machine%journal(i), motion(first:last)), machine%speed, moved, reason)
+        if (.not. moved) then
+          answer%reason = 'bearing '//text(i)//': '//reason
+          return
+        end if
+        force = journal_force(bearing(i)%bearing)
+        answer%force(first:last) = force(:machine%count)
+      end associate
+    end do
+    answer%motion = motion
+    answer%reason = ''
+  end subroutine move_all
+
+  !> Takes a step, or as much of it as all bearings can follow.
+  subroutine take_step(machine, bearing, step, share, answer)
+    type(machine_type), intent(in) :: machine
+    type(machine_bearing_type), intent(inout) :: bearing(:)
+    real(wp), intent(in) :: step(:) !! of all motions [m], [rad]
+    real(wp), intent(inout) :: share !! of it that is taken [1]
+    type(machine_equilibrium_type), intent(inout) :: answer
+    real(wp) :: from(size(step))
+    logical :: moved
+
+    from = answer%motion
+    do
+      call move_all(machine, bearing, from + share*step, answer, moved)
+      if (moved .or. share < shortest) return
+      share = 0.5_wp*share
+    end do
+  end subroutine take_step
+
+  !> Z of all journals.
+  subroutine linearise_all(machine, bearing, stiffness, answer)
+    type(machine_type), intent(in) :: machine
+    type(machine_bearing_type), intent(inout) :: bearing(:)
+    real(wp), allocatable, intent(inout) :: stiffness(:, :) !! a block a journal [SI]
+    type(machine_equilibrium_type), intent(inout) :: answer
+    logical :: found
+    integer :: i
+
+    stiffness = 0.0_wp*answer%held%stiffness
+    do i = 1, size(bearing)
+      associate (first => (i - 1)*machine%count + 1, last => i*machine%count)
+        call find_stiffness(bearing(i), machine%count, stiffness(first:last, first:last), found)
+      end associate
+      answer%linearisations = answer%linearisations + 1
+      if (found) cycle
+      answer%reason = 'bearing '//text(i)//': its linearised equations cannot be factorized'
+      return
+    end do
+  end subroutine linearise_all
+
+  !> Broyden's update of each journal's Z by what a step has shown.
+  subroutine learn(before, answer, count, size_of, stiffness)
+    real(wp), intent(in) :: before(:) !! motions and forces before the step [SI]
+    type(machine_equilibrium_type), intent(in) :: answer !! behind it
+    integer, intent(in) :: count !! motions of a journal
+    real(wp), intent(in) :: size_of(:) !! of motions [m], [rad]
+    real(wp), intent(inout) :: stiffness(:, :) !! Z of all journals [SI]
+    real(wp) :: moved(count), missed(count), along(count)
+    integer :: of(count), first, k, n
+
+    n = size(answer%motion)
+    do first = 1, n, count
+      of = [(first + k, k=0, count - 1)]
+      moved = answer%motion(of) - before(of)
+      along = moved/size_of(of)**2
+      if (.not. dot_product(along, moved) > 0.0_wp) cycle
+      missed = -(answer%force(of) - before(n + of)) - matmul(stiffness(of, of), moved)
+      stiffness(of, of) = stiffness(of, of) + spread(missed, 2, count)*spread(along, 1, count)/dot_product(along, moved)
+    end do
+  end subroutine learn
+end module gfb_machine_equilibrium

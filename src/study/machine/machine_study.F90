@@ -1,0 +1,382 @@
+#include "gfb_petsc.h"
+!> A machine: the case files of its bearings, the equilibrium of all, and what is written of it.
+module gfb_machine_study
+  use petscsys
+  use gfb_kinds, only: wp
+  use gfb_errors, only: error_type, fail
+  use gfb_text, only: text
+  use gfb_units, only: micrometres
+  use gfb_run_log, only: run_log_type
+  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_result_names, only: add_result
+  use gfb_scene, only: scene_type
+  use gfb_scene_reading, only: read_scene
+  use gfb_scene_point, only: operating_point
+  use gfb_analysis_row, only: analysis_equilibrium
+  use gfb_model_case, only: half_width_no, half_width_yes
+  use gfb_memory_check, only: check_memory
+  use gfb_petsc_session, only: wall_time, sum_over_ranks
+  use gfb_c_library, only: peak_memory
+  use gfb_mesh_plan, only: bearing_plan_type
+  use gfb_bearing_plan, only: plan_bearing
+  use gfb_bearing_builder, only: check_meshes
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_shaft, only: motions, body_type
+  use gfb_held_shaft, only: held_shaft_type, free_motions
+  use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads, place_of_sleeve
+  use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
+  use gfb_machine_modes, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
+  use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions
+  use gfb_scene_vibration, only: vibration_of
+  use gfb_continuation, only: path_report_type
+  use gfb_bearing_solution, only: bearing_solution_type, new_solution
+  use gfb_reasons, only: reason_no_equilibrium
+  use gfb_case_file, only: case_array_type, history_row_type, add_array
+  use gfb_result_set, only: result_grid_type, write_result_set
+  use gfb_film_grid, only: add_film_grid
+  use gfb_foil_grid, only: add_foil_grids
+  use gfb_outcome, only: add_outcome
+  use gfb_run_context, only: run_context_type
+  use gfb_study, only: study_type
+  implicit none (type)
+  private
+
+  integer, parameter :: ways = 2 !! translations of a journal
+  character(len=*), parameter :: motion_names(motions) = [character(len=14) :: 'eccentricity_x', 'eccentricity_y', 'tilt_x', 'tilt_y']
+
+  !> A bearing of the machine.
+  type :: part_type
+    type(scene_type), allocatable :: scene !! of its own file, under the machine's speed and load
+    type(bearing_plan_type) :: plan
+    type(bearing_solution_type), allocatable :: solution
+  end type part_type
+
+  !> The machine, and what was found of it. It stays where it is from `solve` to `discard`.
+  type, extends(study_type), public :: machine_study_type
+    private
+    type(machine_type) :: machine
+    type(part_type), allocatable :: part(:)
+    type(machine_equilibrium_type) :: answer
+    type(machine_motions_type) :: motions !! small ones about it
+    type(error_type), allocatable :: refused !! what is wrong with the files of the bearings
+  contains
+    procedure :: prepare => prepare_machine, check => check_machine, solve => solve_machine
+    procedure :: write => write_machine, discard => discard_machine
+  end type machine_study_type
+
+contains
+
+  !> Reads the files of the bearings, and says what the machine is.
+  subroutine prepare_machine(self, scene, log)
+    class(machine_study_type), intent(inout) :: self !! the study
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(run_log_type), intent(in) :: log !! where lines go
+    real(wp), allocatable :: load(:, :)
+    type(body_type) :: body
+    logical :: regular
+    integer :: i
+
+    self%machine = build_machine(scene%machine, scene%unbalance%position)
+    body = self%machine%shaft%body()
+    call log%line('shaft with discs: '//text(body%mass, 5)//' kg, centre of mass at '//text(body%centre*1.0e3_wp, 5)// &
+                  ' mm, transverse inertia '//text(body%transverse_inertia, 4)//' kg m2, polar '// &
+                  text(body%polar_inertia, 4)//' kg m2')
+    call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '// &
+                  text(self%machine%shaft%coordinates())//' motions, of which '// &
+                  text(self%machine%count*size(self%machine%journal))//' at journals')
+    call bearing_loads(self%machine, load, regular)
+    allocate (self%part(size(self%machine%journal)))
+    do i = 1, size(self%part)
+      associate (part => self%part(i))
+        call read_part(scene, i, part, self%refused)
+        if (allocated(self%refused)) return
+        call log%line('bearing '//text(i)//' at '//text(self%machine%journal(i)%position*1.0e3_wp, 5)//' mm, '// &
+                      trim(scene%machine%file(i))//':')
+        part%scene%operation%load = 0.0_wp
+        if (regular) part%scene%operation%load = load(:, i)
+        if (regular) call log%line('load by levers ('//text(load(1, i), 5)//', '//text(load(2, i), 5)//') N')
+        call plan_bearing(part%scene, log, part%plan)
+        self%memory = self%memory + part%plan%memory
+      end associate
+    end do
+  end subroutine prepare_machine
+
+  !> Reads the file of a bearing; speed, load and tilt are the machine's.
+  !>
+  !> Fails where the file is wrong, or is of something that cannot be a bearing of a machine.
+  subroutine read_part(scene, number, part, error)
+    type(scene_type), intent(in) :: scene !! of the machine
+    integer, intent(in) :: number !! of the bearing
+    type(part_type), intent(inout) :: part
+    type(error_type), allocatable, intent(out) :: error
+    character(len=:), allocatable :: file, why
+
+    associate (machine => scene%machine)
+      file = trim(machine%file(number))
+      if (file(:1) /= '/') file = scene%file(:index(scene%file, '/', back=.true.))//file
+      allocate (part%scene)
+      call read_scene(file, part%scene, error)
+      if (allocated(error)) return
+      why = ''
+      associate (one => part%scene)
+        if (allocated(one%machine)) then
+          why = 'it is a machine itself'
+        else if (.not. one%general%asked%has_film) then
+          why = 'it is a case of foils alone'
+        else if (.not. one%bearing%row%moves_across .or. one%bearing%row%moves_along) then
+          why = 'a machine has journal bearings so far'
+        else if (one%sweep%present) then
+          why = 'it has a &sweep: the machine is at one point'
+        else if (one%thermal%present) then
+          why = '&thermal is not carried by a machine yet'
+        else if (one%model%half_width == half_width_yes .and. machine%journal_tilts) then
+          why = "half_width = 'yes' in &model cannot tilt: leave it out, or say journal_tilts = .false. in &machine"
+        end if
+        if (why /= '') then
+          call fail(error, scene%file//': &bearings: files('//text(number)//') = '''//trim(machine%file(number))//''': '//why)
+          return
+        end if
+        one%general%asked = analysis_equilibrium
+        one%general%analysis = analysis_equilibrium
+        one%dynamics%present = .false.
+        one%capacity%limit = 0
+        one%transient%present = .false.
+        one%periodic%present = .false.
+        one%operation%speed_rpm = machine%speed_rpm
+        one%operation%tilt = 0.0_wp
+        if (machine%journal_tilts) one%model%half_width = half_width_no
+      end associate
+    end associate
+  end subroutine read_part
+
+  !> Checks, after `prepare`, whether the study can be done.
+  !>
+  !> Fails where a bearing's file is wrong, where a mesh cannot be, and where the machine that computes has too little memory.
+  subroutine check_machine(self, scene, error)
+    class(machine_study_type), intent(in) :: self !! the study
+    type(scene_type), intent(in) :: scene !! that is asked for
+    type(error_type), allocatable, intent(out) :: error !! what is lacking
+    integer :: i
+
+    if (allocated(self%refused)) then
+      error = self%refused
+      return
+    end if
+    call check_memory(scene, self%memory, error)
+    do i = 1, size(self%part)
+      if (.not. allocated(error)) call check_meshes(self%part(i)%scene, self%part(i)%plan, error)
+    end do
+  end subroutine check_machine
+
+  !> Each bearing alone under its load by levers, then all released.
+  !>
+  !> Fails when a mesh cannot be cut.
+  subroutine solve_machine(self, scene, context, error)
+    class(machine_study_type), target, intent(inout) :: self !! the study
+    type(scene_type), intent(in) :: scene !! that is asked for
+    type(run_context_type), intent(in) :: context !! of the run
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(machine_bearing_type) :: bearing(size(self%part))
+    type(path_report_type) :: report
+    integer :: i
+
+    do i = 1, size(self%part)
+      associate (part => self%part(i))
+        call new_solution(part%solution)
+        call context%log%line('bearing '//text(i)//' alone:')
+        call part%solution%set_up(part%scene, part%plan, context)
+        call part%solution%start(0, report, error)
+        if (allocated(error)) return
+        if (.not. report%converged()) then
+          call part%solution%explain(report, .false., self%reason)
+          self%reason%detail = 'bearing '//text(i)//' alone under its load by levers: '//report%reason()
+          return
+        end if
+        bearing(i) = machine_bearing_type(part%solution%bearing, part%solution%newton, part%solution%path)
+      end associate
+    end do
+    call find_machine_equilibrium(self%machine, bearing, first_motions(self), context%log, self%answer)
+    self%converged = self%answer%converged
+    do i = 1, size(self%part)
+      associate (newton => self%part(i)%solution%newton)
+        self%unknowns = self%unknowns + self%part(i)%solution%bearing%unknowns
+        self%iterations = self%iterations + newton%iterations
+        self%factorizations = self%factorizations + newton%factorizations
+        self%factorizations_finest = self%factorizations_finest + newton%factorizations - newton%factorizations_before
+      end associate
+    end do
+    if (self%converged) then
+      if (scene%general%asked%takes('dynamics')) call find_linear(self, scene, context%log)
+      return
+    end if
+    self%reason%code = reason_no_equilibrium
+    self%reason%detail = self%answer%reason
+    call context%log%tell(self%reason%words())
+  end subroutine solve_machine
+
+  !> Small motions about the equilibrium.
+  subroutine find_linear(self, scene, log)
+    class(machine_study_type), target, intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! of the machine
+    type(run_log_type), intent(in) :: log
+    type(linear_bearing_type), allocatable :: linear(:)
+    integer :: i
+
+    allocate (linear(size(self%part)))
+    do i = 1, size(linear)
+      associate (part => self%part(i))
+        call linearise_bearing(part%solution%bearing, vibration_of(part%scene), log, linear(i))
+      end associate
+    end do
+    call find_motions(scene, self%machine, linear, log, self%motions)
+    do i = 1, size(linear)
+      self%factorizations = self%factorizations + linear(i)%response%factorizations
+      call drop_linear_bearing(linear(i))
+    end do
+  end subroutine find_linear
+
+  !> The journals where their bearings carry the loads by levers, tilted as the shaft bends between them under its weight.
+  function first_motions(self) result(motion)
+    class(machine_study_type), intent(in) :: self
+    real(wp), allocatable :: motion(:) !! [m], [rad]
+    type(held_shaft_type) :: held
+    real(wp), allocatable :: line(:)
+    logical :: regular
+    integer :: i
+
+    allocate (motion(0))
+    do i = 1, size(self%part)
+      motion = [motion, self%machine%journal(i)%offset - self%part(i)%solution%bearing%eccentricity()]
+    end do
+    if (self%machine%count == ways) return
+    call hold_at_rest(self%machine, ways, held, regular)
+    line = free_motions(held, motion)
+    motion = [(self%machine%journal(i)%sign*line(self%machine%journal(i)%place), i=1, size(self%part))]
+  end function first_motions
+
+  !> Writes the results.
+  !>
+  !> Fails when a file cannot be written.
+  subroutine write_machine(self, scene, context, summary, error)
+    class(machine_study_type), target, intent(inout) :: self !! the study
+    type(scene_type), intent(in) :: scene !! that is asked for
+    type(run_context_type), intent(in) :: context !! of the run
+    type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(history_row_type) :: history(0)
+    type(case_array_type), allocatable :: arrays(:)
+    type(result_grid_type), allocatable :: grids(:)
+    real(wp) :: memory(1)
+    integer :: i, before
+
+    call context%log%heading('answer')
+    call add_result(summary, 'analysis', trim(scene%general%asked%word))
+    call add_result(summary, 'converged', self%converged)
+    allocate (arrays(0), grids(0))
+    call add_machine(self, summary)
+    if (self%converged) call add_shaft_line(self, arrays)
+    if (self%converged) call add_motions(self%machine, self%motions, context%log, summary, arrays)
+    do i = 1, size(self%part)
+      if (.not. allocated(self%part(i)%solution)) cycle
+      associate (bearing => self%part(i)%solution%bearing)
+        call add_bearing(i, bearing_answer(bearing, stresses=.true.), context%log, summary)
+        before = size(grids)
+        call add_film_grid(bearing, scene%output, grids)
+        call add_foil_grids(bearing, grids)
+        call name_grids(i, grids(before + 1:))
+      end associate
+    end do
+    call add_result(summary, 'unknowns', self%unknowns)
+    call add_result(summary, 'newton_iterations', self%iterations)
+    call add_result(summary, 'factorizations', self%factorizations)
+    call add_result(summary, 'factorizations_finest', self%factorizations_finest)
+    call add_result(summary, 'wall_time', wall_time() - context%start_time)
+    memory = sum_over_ranks([peak_memory()])
+    call add_result(summary, 'peak_memory', memory(1))
+    call add_outcome(summary, self%converged, self%reason)
+    call write_result_set(scene, context%folder, self%converged, context%origin(), summary, history, arrays, grids, &
+                          context%csv, context%log, error)
+  end subroutine write_machine
+
+  !> Surfaces of a bearing get its number.
+  subroutine name_grids(number, grids)
+    integer, intent(in) :: number !! of the bearing
+    type(result_grid_type), intent(inout) :: grids(:)
+    integer :: i
+
+    do i = 1, size(grids)
+      grids(i)%name = 'bearing_'//text(number)//'.'//grids(i)%name
+    end do
+  end subroutine name_grids
+
+  !> The body, and the power of all films.
+  subroutine add_machine(self, summary)
+    class(machine_study_type), intent(in) :: self
+    type(quantity_type), allocatable, intent(inout) :: summary(:)
+    type(body_type) :: body
+
+    body = self%machine%shaft%body()
+    call add_result(summary, 'mass', body%mass)
+    call add_result(summary, 'centre_of_mass', body%centre)
+    call add_result(summary, 'transverse_inertia', body%transverse_inertia)
+    call add_result(summary, 'polar_inertia', body%polar_inertia)
+  end subroutine add_machine
+
+  !> A bearing's answer, in the summary and as a line of the log.
+  subroutine add_bearing(number, answer, log, summary)
+    integer, intent(in) :: number !! of the bearing
+    type(bearing_answer_type), intent(in) :: answer
+    type(run_log_type), intent(in) :: log
+    type(quantity_type), allocatable, intent(inout) :: summary(:)
+    character(len=:), allocatable :: behind
+    integer :: k
+
+    behind = '_'//text(number)
+    associate (place => answer%place([1, 2, 4, 5]))
+      do k = 1, motions
+        call add_result(summary, trim(motion_names(k))//behind, place(k))
+      end do
+    end associate
+    call add_result(summary, 'force_x'//behind, answer%force(1))
+    call add_result(summary, 'force_y'//behind, answer%force(2))
+    call add_result(summary, 'torque_x'//behind, answer%force(4))
+    call add_result(summary, 'torque_y'//behind, answer%force(5))
+    call add_result(summary, 'minimum_gap'//behind, answer%minimum_gap)
+    call add_result(summary, 'maximum_pressure'//behind, answer%maximum_pressure)
+    call add_result(summary, 'power_loss'//behind, answer%power_loss)
+    call log%line('bearing '//text(number)//'        film '//text(answer%minimum_gap*micrometres, 4)//' um, force ('// &
+                  text(answer%force(1), 5)//', '//text(answer%force(2), 5)//') N, tilt ('//text(answer%place(4)*1.0e6_wp, 4)// &
+                  ', '//text(answer%place(5)*1.0e6_wp, 4)//') urad, '//text(answer%power_loss, 4)//' W')
+  end subroutine add_bearing
+
+  !> The static line of the shaft.
+  subroutine add_shaft_line(self, arrays)
+    class(machine_study_type), intent(in) :: self
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    real(wp), allocatable :: line(:), table(:, :)
+    integer :: n
+
+    associate (shaft => self%machine%shaft)
+      n = 2*size(shaft%z)
+      line = free_motions(self%answer%held, self%answer%motion)
+      allocate (table(5, size(shaft%z)))
+      table(1, :) = shaft%z
+      table(2, :) = line(1:n:2)
+      table(3, :) = line(n + 1::2)
+      table(4, :) = -line(n + 2::2)
+      table(5, :) = line(2:n:2)
+      call add_array(arrays, '/shaft/line', 'mixed SI', 'z [m], x, y [m], rotation about x and y [rad] of the shaft''s nodes', table)
+    end associate
+  end subroutine add_shaft_line
+
+  !> Frees what the solvers hold.
+  subroutine discard_machine(self)
+    class(machine_study_type), intent(inout) :: self !! the study
+    integer :: i
+
+    if (.not. allocated(self%part)) return
+    do i = 1, size(self%part)
+      if (allocated(self%part(i)%solution)) call self%part(i)%solution%destroy()
+    end do
+  end subroutine discard_machine
+end module gfb_machine_study
