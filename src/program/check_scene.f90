@@ -1,7 +1,7 @@
 !> A scene that is looked at and not computed.
 module gfb_check_scene
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type
+  use gfb_errors, only: error_type, fail
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
@@ -38,6 +38,10 @@ contains
     logical :: reduced
     integer :: rows
 
+    if (allocated(scene%machine)) then
+      call fail(error, scene%file//': shares of ranks are shown of one bearing, not of a machine')
+      return
+    end if
     silent%active = .false.
     if (scene%general%analysis%has_film) then
       reduced = .not. scene%model%foil%has_shell_bumps .or. scene%model%reduction == reduction_guyan

@@ -92,6 +92,7 @@ contains
     if (scene%transient%present) why = "--branches has no use with analysis = 'transient'"
     if (scene%dynamics%present) why = "--branches has no use with analysis = 'linear_dynamics'"
     if (scene%sample%present) why = '&sample: has one answer a member, not all of --branches'
+    if (allocated(scene%machine)) why = '--branches has no use with &shaft'
     if (scene%accuracy%present) why = '&accuracy: is for one answer, not for all of --branches'
     if (why /= '') call fail(error, scene%file//': '//why)
   end subroutine check_branches

@@ -197,6 +197,14 @@ def check_wrong(checks, folder):
         wrong[group][key] = value
         answer = solve(folder, "wrong", wrong, status=1)
         checks.that(f"{group}%{key}: {words}", words in answer.complaint)
+    near = copy.deepcopy(content)
+    near["bearings"]["positions"] = [0.02, 0.04]
+    checks.that("bearings that overlap", "overlaps that of positions(1)" in solve(folder, "wrong", near, status=1).complaint)
+    thin = copy.deepcopy(content)
+    thin["shaft"]["outer_diameters"][0] = 0.036
+    checks.that("a journal of another diameter", "has a diameter of 0.036 m" in solve(folder, "thin", thin, options=("--check",)).log)
+    answer = solve(folder, "wrong", content | {"mesh": {"axial_elements": 4}}, status=1)
+    checks.that("&mesh of the machine", "belongs into the files of the bearings" in answer.complaint)
     answer = solve(folder, "wrong", {group: keys for group, keys in content.items() if group != "shaft"}, status=1)
     checks.that("&machine without &shaft", "needs &shaft" in answer.complaint)
 

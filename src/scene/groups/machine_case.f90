@@ -65,13 +65,21 @@ contains
     if (machine%present) call check_places(keys, machine)
   end subroutine read_machine_case
 
-  !> All that is on the shaft stands between its ends; a shaft that nothing holds has no place.
+  !> All that is on the shaft stands between its ends; a shaft that nothing holds has no place, and
+  !> groups of bearings are not those of the machine.
   subroutine check_places(keys, machine)
     type(case_keys_type), intent(inout) :: keys
     type(machine_case_type), intent(in) :: machine
+    character(len=*), parameter :: of_bearings(*) = &
+      [character(len=9) :: 'model', 'mesh', 'solver', 'top_foil', 'bump_foil']
     real(wp) :: whole
-    integer :: i
+    integer :: i, line
 
+    do i = 1, size(of_bearings)
+      line = keys%line_of_group(trim(of_bearings(i)))
+      if (line > 0) call keys%complaints%add(line, '&'//trim(of_bearings(i))//': the group '// &
+                                             'belongs into the files of the bearings')
+    end do
     whole = sum(machine%length)
     call check_list('discs', 'positions', machine%disc_position)
     call check_list('bearings', 'positions', machine%bearing_position)

@@ -42,6 +42,8 @@ module gfb_machine_study
   private
 
   integer, parameter :: ways = 2 !! translations of a journal
+  real(wp), parameter :: unlike = 0.01_wp   !! diameters that differ by more do not fit [1]
+  real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
   character(len=*), parameter :: motion_names(motions) = [character(len=14) :: 'eccentricity_x', 'eccentricity_y', 'tilt_x', 'tilt_y']
 
   !> A bearing of the machine.
@@ -99,7 +101,46 @@ contains
         self%memory = self%memory + part%plan%memory
       end associate
     end do
+    call check_fit(scene, self%part, log, self%refused)
   end subroutine prepare_machine
+
+  !> Warns of a shaft that is not as thick as a bearing has it.
+  !>
+  !> Fails where two bearings overlap.
+  subroutine check_fit(scene, part, log, error)
+    type(scene_type), intent(in) :: scene !! of the machine
+    type(part_type), intent(in) :: part(:) !! its bearings
+    type(run_log_type), intent(in) :: log
+    type(error_type), allocatable, intent(out) :: error
+    real(wp) :: first, last
+    integer :: i, k
+
+    associate (machine => scene%machine)
+      do i = 1, size(part)
+        do k = 1, i - 1
+          if (abs(machine%bearing_position(i) - machine%bearing_position(k)) >= &
+              0.5_wp*(part(i)%scene%bearing%length + part(k)%scene%bearing%length)) cycle
+          call fail(error, scene%file//': &bearings: positions('//text(i)//') = '//text(machine%bearing_position(i))// &
+                    ': the bearing overlaps that of positions('//text(k)//')')
+          return
+        end do
+        associate (bearing => part(i)%scene%bearing)
+          first = 0.0_wp
+          do k = 1, size(machine%length)
+            last = first + machine%length(k)
+            if (min(last, machine%bearing_position(i) + 0.5_wp*bearing%length) - &
+                max(first, machine%bearing_position(i) - 0.5_wp*bearing%length) > touches*bearing%length .and. &
+                abs(machine%outer_diameter(k) - 2.0_wp*bearing%radius) > unlike*2.0_wp*bearing%radius) then
+              call log%warning('segment '//text(k)//' of the shaft, under bearing '//text(i)//', has a diameter of '// &
+                               text(machine%outer_diameter(k))//' m, the journal in the bearing''s file one of '// &
+                               text(2.0_wp*bearing%radius)//' m')
+            end if
+            first = last
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine check_fit
 
   !> Reads the file of a bearing; speed, load and tilt are the machine's.
   !>
