@@ -473,7 +473,7 @@ module gfb_result_table
       'with `&rotor`: growth of the least damped mode of any kind, of rotor, foil or film'), &
     result_type('largest_growth_frequency', 'rad/s', number, bearing, &
       'circular frequency of that mode', 'the same: circular frequency of that mode'), &
-    result_type('onset_speed_rpm', 'rpm', number, bearing, &
+    result_type('onset_speed_rpm', 'rpm', number, bearing + machine, &
       'speed at which growth_rate changes its sign, or critical_mass passes the rotor''s; the '// &
       'first along the sweep', &
       'with `&rotor` in a sweep of `speed_rpm`: speed at which `growth_rate` changes its sign, '// &

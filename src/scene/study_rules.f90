@@ -36,6 +36,10 @@ contains
 
     associate (sweep => scene%sweep, analysis => scene%general%analysis, foil => scene%model%foil)
       if (.not. sweep%present) return
+      if (analysis%is_machine) then
+        call check_machine_sweep(keys, scene)
+        return
+      end if
       call keys%rule('sweep', memory, sweep%friction_memory .and. foil%is_known() .and. &
                      .not. foil%has_bumps, needs_meshes//'nothing else rubs')
       call keys%rule('sweep', memory, sweep%friction_memory .and. foil%has_bumps .and. &
@@ -67,6 +71,24 @@ contains
       end select
     end associate
   end subroutine check_sweep
+
+  !> A machine is swept over its speed.
+  subroutine check_machine_sweep(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    character(len=*), parameter :: beside = ' beside &shaft'
+
+    associate (sweep => scene%sweep)
+      call keys%rule('sweep', 'parameter', sweep%parameter /= sweep_speed .and. &
+                     sweep%parameter > 0, "must be 'speed_rpm'"//beside)
+      call keys%rule('sweep', 'hold_position', sweep%hold_position, 'has no use'//beside)
+      call keys%rule('sweep', 'turn_folds', sweep%turn_folds, 'has no use'//beside)
+      call keys%rule('sweep', 'friction_memory', sweep%friction_memory, 'has no use'//beside)
+      if (sweep%parameter == sweep_speed) then
+        call check_zeros(keys, scene, 'must be positive: a film without speed carries no load')
+      end if
+    end associate
+  end subroutine check_machine_sweep
 
   !> Complains about values of a sweep that are zero.
   subroutine check_zeros(keys, scene, rule)

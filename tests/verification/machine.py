@@ -103,6 +103,26 @@ def check_all_references(checks, folder):
         check_row(checks, folder, row)
 
 
+def check_onset(checks, folder):
+    """The speed at which a machine begins to whirl, and a sweep's rows: those of its points alone."""
+    row = REFERENCE["linear"][2]
+    known = row["onset"]["A"]["speed_rpm"]
+    content = machine_case(folder, row | {"speed_rpm": 0.95*known})
+    content["dynamics"]["largest_frequency"] = 1.5*row["onset"]["A"]["whirl"]
+    content["sweep"] = {"parameter": "speed_rpm", "values": (0.95*known, 1.04*known)}
+    answer = solve(folder, "sweep", content)
+    checks.below("onset", answer["onset_speed_rpm"]/known - 1.0, AGREE)
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        growth = file["dynamics/mode_growth_rate"][:, 0]
+    checks.that("the growth changes its sign", growth[0] < 0.0 < growth[1])
+    alone = copy.deepcopy(content)
+    del alone["sweep"]
+    alone["machine"]["speed_rpm"] = 1.04*known
+    there = solve(folder, "alone", alone)
+    for name in ("growth_rate", "whirl_frequency", "eccentricity_x_1", "tilt_y_2"):
+        checks.below(f"a sweep's last point: {name}", answer[name]/there[name] - 1.0, 1.0e-7)
+
+
 def coarse(folder):
     """A machine on a coarse mesh, at rest in its equilibrium."""
     content = machine_case(folder, REFERENCE["linear"][0], COARSE, 1)
@@ -197,6 +217,8 @@ def check_wrong(checks, folder):
         wrong[group][key] = value
         answer = solve(folder, "wrong", wrong, status=1)
         checks.that(f"{group}%{key}: {words}", words in answer.complaint)
+    swept = content | {"sweep": {"parameter": "load", "values": (1.0, 2.0)}}
+    checks.that("a sweep of loads", "must be 'speed_rpm' beside &shaft" in solve(folder, "wrong", swept, status=1).complaint)
     near = copy.deepcopy(content)
     near["bearings"]["positions"] = [0.02, 0.04]
     checks.that("bearings that overlap", "overlaps that of positions(1)" in solve(folder, "wrong", near, status=1).complaint)
@@ -213,7 +235,7 @@ def main():
     """Runs all checks."""
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in ((check_all_references,) if "--long" in sys.argv else (check_reference, check_invariants, check_wrong)):
+        for check in ((check_all_references, check_onset) if "--long" in sys.argv else (check_reference, check_invariants, check_wrong)):
             check(checks, pathlib.Path(name))
     checks.close()
 

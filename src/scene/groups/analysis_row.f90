@@ -100,7 +100,7 @@ module gfb_analysis_row
     number=10, word='periodic', has_film=.true., floats=.true., &
     groups=of_bearings//' periodic rotor unbalance foil_damping ')
 
-  character(len=*), parameter :: of_machines = ' shaft discs bearings loads machine '
+  character(len=*), parameter :: of_machines = ' shaft discs bearings loads machine sweep '
 
   !> Those of a machine; each is called as that of one bearing.
   type(analysis_row_type), parameter :: machine_rows(*) = [ &

@@ -1,6 +1,7 @@
 #include "gfb_petsc.h"
 !> Small motions of a machine about its equilibrium, and what is shown and written of them.
 module gfb_machine_motions
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_units, only: degrees, turn, micrometres
@@ -15,9 +16,18 @@ module gfb_machine_motions
   use gfb_rotor, only: whirl_sense
   implicit none (type)
   private
-  public :: find_motions, add_motions
+  public :: find_motions, add_motions, growth_of, frequency_of
 
   real(wp), parameter :: usual_highest = 1.5_wp !! frequency up to which modes are looked for, over the speed [1]
+
+  !> What is written of each mode.
+  character(len=*), parameter :: names(*) = [character(len=21) :: 'mode_frequency', 'mode_growth_rate', 'mode_damping_ratio', &
+                                             'logarithmic_decrement', 'mode_sense']
+  character(len=*), parameter :: units(*) = [character(len=5) :: 'rad/s', '1/s', '1', '1', '1']
+  character(len=*), parameter :: meanings(*) = [character(len=70) :: &
+    'circular frequency of the modes, growth falling', 'growth of the amplitude, exp(growth t)', &
+    'minus the growth over the modulus of growth + i frequency', 'logarithm of an amplitude over that a period later', &
+    '1: a circle with the speed where it is largest, -1: against it']
 
   !> Small motions about an equilibrium.
   type, public :: machine_motions_type
@@ -67,54 +77,102 @@ contains
     end do
   end function unbalance_force
 
-  !> Shows and writes modes and response.
-  subroutine add_motions(machine, motions, log, summary, arrays)
+  !> Growth of the mode that grows most or dies out last; not a number where there is none [1/s].
+  pure real(wp) function growth_of(motions) result(growth)
+    type(machine_motions_type), intent(in) :: motions
+
+    growth = ieee_value(1.0_wp, ieee_quiet_nan)
+    if (size(motions%mode) > 0) growth = real(motions%mode(1)%rate, wp)
+  end function growth_of
+
+  !> Its frequency [rad/s].
+  pure real(wp) function frequency_of(motions) result(frequency)
+    type(machine_motions_type), intent(in) :: motions
+
+    frequency = ieee_value(1.0_wp, ieee_quiet_nan)
+    if (size(motions%mode) > 0) frequency = aimag(motions%mode(1)%rate)
+  end function frequency_of
+
+  !> Shows and writes modes and response, of a sweep those of all its points.
+  subroutine add_motions(machine, motions, sweeps, log, summary, arrays)
     type(machine_type), intent(in) :: machine
-    type(machine_motions_type), intent(in) :: motions !! of it
+    type(machine_motions_type), intent(in) :: motions(:) !! of it, one a point
+    logical, intent(in) :: sweeps !! there are several points
     type(run_log_type), intent(in) :: log !! where lines go
     type(quantity_type), allocatable, intent(inout) :: summary(:) !! gets growth and frequency of the least damped mode
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
-    if (allocated(motions%mode)) call add_modes(machine, motions%mode, log, summary, arrays)
-    if (allocated(motions%response)) call add_response(machine, motions%response, log, arrays)
+
+    associate (last => motions(size(motions)))
+      if (allocated(last%mode)) then
+        call show_modes(machine, last%mode, log)
+        if (size(last%mode) > 0) then
+          call add_result(summary, 'growth_rate', growth_of(last))
+          call add_result(summary, 'whirl_frequency', frequency_of(last))
+        end if
+        call add_modes(motions, sweeps, arrays)
+      end if
+      if (allocated(last%response)) then
+        call show_response(machine, last%response, log)
+        call add_responses(machine, motions, sweeps, arrays)
+      end if
+    end associate
   end subroutine add_motions
 
-  !> The modes, in the log and as arrays; the least damped one in the summary.
-  subroutine add_modes(machine, mode, log, summary, arrays)
+  !> The modes as lines of the log.
+  subroutine show_modes(machine, mode, log)
     type(machine_type), intent(in) :: machine
     type(machine_mode_type), intent(in) :: mode(:)
     type(run_log_type), intent(in) :: log
-    type(quantity_type), allocatable, intent(inout) :: summary(:)
-    type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    real(wp), allocatable :: table(:, :), shape(:, :)
-    integer :: i, n, nodes
+    integer :: i
 
-    n = size(mode)
-    if (n == 0) then
+    if (size(mode) == 0) then
       call log%line('modes            none up to the highest frequency asked for')
       return
     end if
-    call add_result(summary, 'growth_rate', real(mode(1)%rate, wp))
-    call add_result(summary, 'whirl_frequency', aimag(mode(1)%rate))
-    nodes = size(machine%shaft%z)
-    allocate (table(5, n), shape(8*nodes, n))
     call log%line('mode   frequency [Hz]   over speed   growth [1/s]   log decrement')
-    do i = 1, n
+    do i = 1, size(mode)
       associate (rate => mode(i)%rate)
-        table(:, i) = [aimag(rate), real(rate, wp), -real(rate, wp)/abs(rate), -turn*real(rate, wp)/aimag(rate), &
-                       sense_of(mode(i)%shape)]
-        shape(:, i) = by_nodes(mode(i)%shape)
         call log%line(right_text(text(i), 4)//right_text(text(aimag(rate)/turn, 5), 17)// &
                       right_text(text(aimag(rate)/max(machine%speed, tiny(1.0_wp)), 4), 13)// &
-                      right_text(text(real(rate, wp), 4), 15)//right_text(text(table(4, i), 4), 16))
+                      right_text(text(real(rate, wp), 4), 15)//right_text(text(-turn*real(rate, wp)/aimag(rate), 4), 16))
       end associate
     end do
-    call add_array(arrays, '/dynamics/mode_frequency', 'rad/s', 'circular frequency of the modes, growth falling', table(1:1, :))
-    call add_array(arrays, '/dynamics/mode_growth_rate', '1/s', 'growth of the amplitude, exp(growth t)', table(2:2, :))
-    call add_array(arrays, '/dynamics/mode_damping_ratio', '1', 'minus the growth over the modulus of growth + i frequency', table(3:3, :))
-    call add_array(arrays, '/dynamics/logarithmic_decrement', '1', 'logarithm of an amplitude over that a period later', table(4:4, :))
-    call add_array(arrays, '/dynamics/mode_sense', '1', '1: a circle with the speed where it is largest, -1: against it', table(5:5, :))
-    call add_array(arrays, '/dynamics/mode_shape', 'mixed SI', 'of each mode, real and imaginary part of x, y [m], rotation about x and y '// &
-                   '[rad], node by node of /shaft/line', shape)
+  end subroutine show_modes
+
+  !> The modes as arrays: a row each, of a sweep a row a point, which has NaN at its end where others have more.
+  subroutine add_modes(motions, sweeps, arrays)
+    type(machine_motions_type), intent(in) :: motions(:)
+    logical, intent(in) :: sweeps
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    real(wp), allocatable :: table(:, :, :), shape(:, :)
+    real(wp) :: of_mode(size(names))
+    integer :: i, k, most
+
+    most = 1
+    do k = 1, size(motions)
+      most = max(most, size(motions(k)%mode))
+    end do
+    if (.not. sweeps) most = size(motions(1)%mode)
+    allocate (table(most, size(motions), size(names)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+    do k = 1, size(motions)
+      do i = 1, size(motions(k)%mode)
+        associate (rate => motions(k)%mode(i)%rate)
+          of_mode = [aimag(rate), real(rate, wp), -real(rate, wp)/abs(rate), -turn*real(rate, wp)/aimag(rate), &
+                     sense_of(motions(k)%mode(i)%shape)]
+        end associate
+        table(i, k, :) = of_mode
+      end do
+    end do
+    do i = 1, size(names)
+      if (sweeps) call add_array(arrays, '/dynamics/'//trim(names(i)), trim(units(i)), trim(meanings(i)), table(:, :, i), .true.)
+      if (.not. sweeps) call add_array(arrays, '/dynamics/'//trim(names(i)), trim(units(i)), trim(meanings(i)), transpose(table(:, :, i)))
+    end do
+    associate (last => motions(size(motions)))
+      if (size(last%mode) == 0) return
+      shape = reshape([(by_nodes(last%mode(i)%shape), i=1, size(last%mode))], [2*size(last%mode(1)%shape), size(last%mode)])
+    end associate
+    call add_array(arrays, '/dynamics/mode_shape', 'mixed SI', 'of each mode, of a sweep at its last point: real and imaginary part '// &
+                   'of x, y [m], rotation about x and y [rad], node by node of /shaft/line', shape)
   end subroutine add_modes
 
   !> Text at the right of a column.
@@ -158,29 +216,56 @@ contains
     end do
   end function by_nodes
 
-  !> How unbalance moves the shaft at bearings, discs and stations.
-  subroutine add_response(machine, response, log, arrays)
+  !> How unbalance moves the shaft: z, amplitude and phase of x, of y, at bearings, discs and stations.
+  function response_table(machine, response) result(table)
     type(machine_type), intent(in) :: machine
     complex(wp), intent(in) :: response(:) !! [m], [1]
-    type(run_log_type), intent(in) :: log
-    type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    integer, allocatable :: node(:)
     real(wp), allocatable :: table(:, :)
+    integer, allocatable :: node(:)
     integer :: i, n
 
     n = 2*size(machine%shaft%z)
     node = [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), machine%station]
     allocate (table(5, size(node)))
     do i = 1, size(node)
-      associate (x => response(2*node(i) - 1), y => response(n + 2*node(i) - 1), z => machine%shaft%z(node(i)))
-        table(:, i) = [z, abs(x), phase_of(x), abs(y), phase_of(y)]
-        call log%line('response         at '//text(z*1.0e3_wp, 4)//' mm: '//text(abs(x)*micrometres, 4)//' x '// &
-                      text(abs(y)*micrometres, 4)//' um, phase '//text(phase_of(x)*degrees, 4)//', '//text(phase_of(y)*degrees, 4)//' deg')
+      associate (x => response(2*node(i) - 1), y => response(n + 2*node(i) - 1))
+        table(:, i) = [machine%shaft%z(node(i)), abs(x), phase_of(x), abs(y), phase_of(y)]
       end associate
     end do
-    call add_array(arrays, '/dynamics/response', 'mixed SI', 'unbalance response of bearings, discs, stations: z [m], amplitude [m] and '// &
-                   'phase [rad] of x, of y; x = amplitude cos(Omega t + phase)', table)
-  end subroutine add_response
+  end function response_table
+
+  !> The same as lines of the log.
+  subroutine show_response(machine, response, log)
+    type(machine_type), intent(in) :: machine
+    complex(wp), intent(in) :: response(:) !! [m], [1]
+    type(run_log_type), intent(in) :: log
+    real(wp), allocatable :: table(:, :)
+    integer :: i
+
+    table = response_table(machine, response)
+    do i = 1, size(table, 2)
+      call log%line('response         at '//text(table(1, i)*1.0e3_wp, 4)//' mm: '//text(table(2, i)*micrometres, 4)//' x '// &
+                    text(table(4, i)*micrometres, 4)//' um, phase '//text(table(3, i)*degrees, 4)//', '// &
+                    text(table(5, i)*degrees, 4)//' deg')
+    end do
+  end subroutine show_response
+
+  !> The response as an array: a row a place; of a sweep a row a point, place after place.
+  subroutine add_responses(machine, motions, sweeps, arrays)
+    type(machine_type), intent(in) :: machine
+    type(machine_motions_type), intent(in) :: motions(:)
+    logical, intent(in) :: sweeps
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    character(len=*), parameter :: path = '/dynamics/response', words = 'unbalance response of bearings, discs, stations: z [m], '// &
+                                   'amplitude [m] and phase [rad] of x, of y; x = amplitude cos(speed t + phase)'
+    real(wp), allocatable :: table(:, :)
+    integer :: k
+
+    table = response_table(machine, motions(1)%response)
+    if (sweeps) table = reshape([(response_table(machine, motions(k)%response), k=1, size(motions))], [size(table), size(motions)])
+    if (sweeps) call add_array(arrays, path, 'mixed SI', words, table, .true.)
+    if (.not. sweeps) call add_array(arrays, path, 'mixed SI', words, table)
+  end subroutine add_responses
 
   !> Angle of a complex number [rad].
   elemental real(wp) function phase_of(number) result(phase)

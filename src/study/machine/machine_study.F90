@@ -26,11 +26,14 @@ module gfb_machine_study
   use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads, place_of_sleeve
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_modes, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
-  use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions
+  use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of, frequency_of
+  use gfb_root_bracket, only: root_bracket_type
+  use gfb_signals, only: stop_agreed
+  use gfb_operation_case, only: angular_speed
   use gfb_scene_vibration, only: vibration_of
   use gfb_continuation, only: path_report_type
   use gfb_bearing_solution, only: bearing_solution_type, new_solution
-  use gfb_reasons, only: reason_no_equilibrium
+  use gfb_reasons, only: reason_type, reason_no_equilibrium
   use gfb_case_file, only: case_array_type, history_row_type, add_array
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_film_grid, only: add_film_grid
@@ -44,6 +47,8 @@ module gfb_machine_study
   integer, parameter :: ways = 2 !! translations of a journal
   real(wp), parameter :: unlike = 0.01_wp   !! diameters that differ by more do not fit [1]
   real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
+  integer, parameter :: most_trials = 30          !! of the search for an onset
+  real(wp), parameter :: onset_tolerance = 1.0e-8_wp !! of its speed, and of growth over speed [1]
   character(len=*), parameter :: motion_names(motions) = [character(len=14) :: 'eccentricity_x', 'eccentricity_y', 'tilt_x', 'tilt_y']
 
   !> A bearing of the machine.
@@ -58,8 +63,11 @@ module gfb_machine_study
     private
     type(machine_type) :: machine
     type(part_type), allocatable :: part(:)
+    type(machine_bearing_type), allocatable :: bearing(:) !! of the parts' solutions
     type(machine_equilibrium_type) :: answer
-    type(machine_motions_type) :: motions !! small ones about it
+    type(machine_motions_type), allocatable :: motions(:) !! small ones about each answer
+    type(history_row_type), allocatable :: history(:)     !! of a sweep
+    real(wp) :: onset = 0.0_wp !! speed from which on it whirls; 0: none was found [rpm]
     type(error_type), allocatable :: refused !! what is wrong with the files of the bearings
   contains
     procedure :: prepare => prepare_machine, check => check_machine, solve => solve_machine
@@ -184,6 +192,7 @@ contains
         one%transient%present = .false.
         one%periodic%present = .false.
         one%operation%speed_rpm = machine%speed_rpm
+        if (scene%sweep%present) one%operation%speed_rpm = scene%sweep%values(1)
         one%operation%tilt = 0.0_wp
         if (machine%journal_tilts) one%model%half_width = half_width_no
       end associate
@@ -209,7 +218,7 @@ contains
     end do
   end subroutine check_machine
 
-  !> Each bearing alone under its load by levers, then all released.
+  !> Each bearing alone under its load by levers, then all released; from there to the further speeds of a sweep.
   !>
   !> Fails when a mesh cannot be cut.
   subroutine solve_machine(self, scene, context, error)
@@ -217,10 +226,10 @@ contains
     type(scene_type), intent(in) :: scene !! that is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(machine_bearing_type) :: bearing(size(self%part))
     type(path_report_type) :: report
-    integer :: i
+    integer :: i, points
 
+    allocate (self%bearing(size(self%part)), self%history(0))
     do i = 1, size(self%part)
       associate (part => self%part(i))
         call new_solution(part%solution)
@@ -233,11 +242,111 @@ contains
           self%reason%detail = 'bearing '//text(i)//' alone under its load by levers: '//report%reason()
           return
         end if
-        bearing(i) = machine_bearing_type(part%solution%bearing, part%solution%newton, part%solution%path)
+        self%bearing(i) = machine_bearing_type(part%solution%bearing, part%solution%newton, part%solution%path)
       end associate
     end do
-    call find_machine_equilibrium(self%machine, bearing, first_motions(self), context%log, self%answer)
-    self%converged = self%answer%converged
+    points = 1
+    if (scene%sweep%present) points = size(scene%sweep%values)
+    allocate (self%motions(points))
+    self%answer%motion = first_motions(self)
+    do i = 1, points
+      if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
+      call find_answer(self, scene, context%log, self%motions(i))
+      if (self%reason%is_given()) exit
+      if (scene%sweep%present) call record_point(self, scene, i, context%log)
+      if (i > 1) call look_for_onset(self, scene, i, context%log)
+    end do
+    call count_work(self)
+    self%converged = .not. self%reason%is_given()
+    if (.not. self%converged) call context%log%tell(self%reason%words())
+  end subroutine solve_machine
+
+  !> The equilibrium at the machine's present speed, from the last one, and small motions about it where they are asked for.
+  subroutine find_answer(self, scene, log, motions)
+    class(machine_study_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! of the machine
+    type(run_log_type), intent(in) :: log
+    type(machine_motions_type), intent(inout) :: motions
+    real(wp), allocatable :: from(:)
+
+    from = self%answer%motion
+    call find_machine_equilibrium(self%machine, self%bearing, from, log, self%answer)
+    if (self%answer%converged) then
+      if (scene%general%asked%takes('dynamics')) call find_linear(self, scene, log, motions)
+      return
+    end if
+    self%reason%code = reason_no_equilibrium
+    self%reason%detail = self%answer%reason
+    if (stop_agreed()) call self%reason%stopped()
+  end subroutine find_answer
+
+  !> A row of the history, and a line of the log.
+  subroutine record_point(self, scene, point, log)
+    class(machine_study_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! of the machine
+    integer, intent(in) :: point !! of its sweep
+    type(run_log_type), intent(in) :: log
+    type(history_row_type) :: row
+    character(len=:), allocatable :: words
+    integer :: i
+
+    allocate (row%quantity(0))
+    call add_result(row%quantity, 'speed_rpm', scene%sweep%values(point))
+    do i = 1, size(self%part)
+      call add_bearing(i, bearing_answer(self%part(i)%solution%bearing, stresses=.false.), row%quantity)
+    end do
+    words = 'point '//text(point)//' of '//text(size(scene%sweep%values))//': '//text(scene%sweep%values(point))//' rpm'
+    if (allocated(self%motions(point)%mode)) then
+      call add_result(row%quantity, 'growth_rate', growth_of(self%motions(point)))
+      call add_result(row%quantity, 'whirl_frequency', frequency_of(self%motions(point)))
+      words = words//', growth '//text(growth_of(self%motions(point)), 4)//' 1/s'
+    end if
+    self%history = [self%history, row]
+    call log%line(words)
+  end subroutine record_point
+
+  !> Between two speeds at which the growth has different signs: the speed at which the least damped mode neither grows nor dies
+  !> out, by false position. The last answer is found again behind it.
+  subroutine look_for_onset(self, scene, point, log)
+    class(machine_study_type), intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! of the machine
+    integer, intent(in) :: point !! of the sweep, the second one at least
+    type(run_log_type), intent(in) :: log
+    type(machine_motions_type) :: motions
+    type(root_bracket_type) :: bracket
+    real(wp) :: growth(2), trial, last
+    integer :: i
+
+    if (self%onset > 0.0_wp .or. .not. allocated(self%motions(point)%mode)) return
+    growth = [growth_of(self%motions(point - 1)), growth_of(self%motions(point))]
+    if (.not. growth(1)*growth(2) < 0.0_wp) return
+    bracket = root_bracket_type(scene%sweep%values(point - 1), scene%sweep%values(point), growth(1), growth(2))
+    do i = 1, most_trials
+      call log%is_within('onset of whirl, trial '//text(i))
+      last = bracket%high
+      trial = bracket%trial()
+      self%machine%speed = angular_speed(trial)
+      call find_answer(self, scene, log, motions)
+      if (self%reason%is_given()) exit
+      call bracket%narrow(trial, growth_of(motions))
+      if (abs(trial - last) <= onset_tolerance*trial .or. abs(bracket%at_high) <= onset_tolerance*self%machine%speed) then
+        self%onset = trial
+        exit
+      end if
+    end do
+    if (self%onset > 0.0_wp) call log%line('onset: the least damped mode changes its sign of growth at '//text(self%onset, 8)//' rpm')
+    if (.not. self%onset > 0.0_wp) call log%line('onset: between '//text(min(bracket%low, bracket%high))//' and '// &
+                                                 text(max(bracket%low, bracket%high))//' rpm')
+    self%reason = reason_type()
+    self%machine%speed = angular_speed(scene%sweep%values(point))
+    call find_answer(self, scene, log, motions)
+  end subroutine look_for_onset
+
+  !> What all bearings have cost.
+  subroutine count_work(self)
+    class(machine_study_type), intent(inout) :: self
+    integer :: i
+
     do i = 1, size(self%part)
       associate (newton => self%part(i)%solution%newton)
         self%unknowns = self%unknowns + self%part(i)%solution%bearing%unknowns
@@ -246,30 +355,22 @@ contains
         self%factorizations_finest = self%factorizations_finest + newton%factorizations - newton%factorizations_before
       end associate
     end do
-    if (self%converged) then
-      if (scene%general%asked%takes('dynamics')) call find_linear(self, scene, context%log)
-      return
-    end if
-    self%reason%code = reason_no_equilibrium
-    self%reason%detail = self%answer%reason
-    call context%log%tell(self%reason%words())
-  end subroutine solve_machine
+  end subroutine count_work
 
   !> Small motions about the equilibrium.
-  subroutine find_linear(self, scene, log)
-    class(machine_study_type), target, intent(inout) :: self
+  subroutine find_linear(self, scene, log, motions)
+    class(machine_study_type), intent(inout) :: self
     type(scene_type), intent(in) :: scene !! of the machine
     type(run_log_type), intent(in) :: log
+    type(machine_motions_type), intent(inout) :: motions
     type(linear_bearing_type), allocatable :: linear(:)
     integer :: i
 
-    allocate (linear(size(self%part)))
+    allocate (linear(size(self%bearing)))
     do i = 1, size(linear)
-      associate (part => self%part(i))
-        call linearise_bearing(part%solution%bearing, vibration_of(part%scene), log, linear(i))
-      end associate
+      call linearise_bearing(self%bearing(i)%bearing, vibration_of(self%part(i)%scene), log, linear(i))
     end do
-    call find_motions(scene, self%machine, linear, log, self%motions)
+    call find_motions(scene, self%machine, linear, log, motions)
     do i = 1, size(linear)
       self%factorizations = self%factorizations + linear(i)%response%factorizations
       call drop_linear_bearing(linear(i))
@@ -304,7 +405,6 @@ contains
     type(run_context_type), intent(in) :: context !! of the run
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(history_row_type) :: history(0)
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type), allocatable :: grids(:)
     real(wp) :: memory(1)
@@ -316,17 +416,19 @@ contains
     allocate (arrays(0), grids(0))
     call add_machine(self, summary)
     if (self%converged) call add_shaft_line(self, arrays)
-    if (self%converged) call add_motions(self%machine, self%motions, context%log, summary, arrays)
+    if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
       associate (bearing => self%part(i)%solution%bearing)
-        call add_bearing(i, bearing_answer(bearing, stresses=.true.), context%log, summary)
+        call add_bearing(i, bearing_answer(bearing, stresses=.true.), summary)
+        call show_bearing(i, bearing_answer(bearing, stresses=.false.), context%log)
         before = size(grids)
         call add_film_grid(bearing, scene%output, grids)
         call add_foil_grids(bearing, grids)
         call name_grids(i, grids(before + 1:))
       end associate
     end do
+    if (self%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', self%onset)
     call add_result(summary, 'unknowns', self%unknowns)
     call add_result(summary, 'newton_iterations', self%iterations)
     call add_result(summary, 'factorizations', self%factorizations)
@@ -335,7 +437,7 @@ contains
     memory = sum_over_ranks([peak_memory()])
     call add_result(summary, 'peak_memory', memory(1))
     call add_outcome(summary, self%converged, self%reason)
-    call write_result_set(scene, context%folder, self%converged, context%origin(), summary, history, arrays, grids, &
+    call write_result_set(scene, context%folder, self%converged, context%origin(), summary, self%history, arrays, grids, &
                           context%csv, context%log, error)
   end subroutine write_machine
 
@@ -363,11 +465,10 @@ contains
     call add_result(summary, 'polar_inertia', body%polar_inertia)
   end subroutine add_machine
 
-  !> A bearing's answer, in the summary and as a line of the log.
-  subroutine add_bearing(number, answer, log, summary)
+  !> A bearing's answer.
+  subroutine add_bearing(number, answer, summary)
     integer, intent(in) :: number !! of the bearing
     type(bearing_answer_type), intent(in) :: answer
-    type(run_log_type), intent(in) :: log
     type(quantity_type), allocatable, intent(inout) :: summary(:)
     character(len=:), allocatable :: behind
     integer :: k
@@ -385,10 +486,17 @@ contains
     call add_result(summary, 'minimum_gap'//behind, answer%minimum_gap)
     call add_result(summary, 'maximum_pressure'//behind, answer%maximum_pressure)
     call add_result(summary, 'power_loss'//behind, answer%power_loss)
+  end subroutine add_bearing
+
+  !> The same as a line of the log.
+  subroutine show_bearing(number, answer, log)
+    integer, intent(in) :: number !! of the bearing
+    type(bearing_answer_type), intent(in) :: answer
+    type(run_log_type), intent(in) :: log
     call log%line('bearing '//text(number)//'        film '//text(answer%minimum_gap*micrometres, 4)//' um, force ('// &
                   text(answer%force(1), 5)//', '//text(answer%force(2), 5)//') N, tilt ('//text(answer%place(4)*1.0e6_wp, 4)// &
                   ', '//text(answer%place(5)*1.0e6_wp, 4)//') urad, '//text(answer%power_loss, 4)//' W')
-  end subroutine add_bearing
+  end subroutine show_bearing
 
   !> The static line of the shaft.
   subroutine add_shaft_line(self, arrays)
