@@ -152,6 +152,9 @@ def check_invariants(checks, folder):
     compare(checks, "all sleeves moved and turned as one body", numbers(solve(folder, "moved", moved), PLACES), numbers(base, PLACES))
     check_turned(checks, folder, content)
     compare(checks, "two ranks", numbers(solve(folder, "ranks", content, ranks=2), PLACES), numbers(base, PLACES))
+    light = copy.deepcopy(content)
+    light["machine"]["gravity"] = (0.0, 0.0)
+    checks.below("without weight", numpy.abs(numbers(solve(folder, "light", light), PLACES)[:, :2]).max(), 1.0e-12)
     check_balance(checks, base, content)
     check_alone(checks, folder, base, content)
 

@@ -36,6 +36,7 @@ module gfb_machine_equilibrium
   real(wp), parameter :: tolerance = 1.0e-10_wp !! of a motion, over the clearance [1]
   real(wp), parameter :: balanced = 1.0e-9_wp   !! imbalance over the load [1]
   real(wp), parameter :: longest = 0.25_wp      !! step of a journal, over its clearance [1]
+  real(wp), parameter :: least_load = 1.0e-6_wp !! that an imbalance is measured against, over p_a D L [1]
   real(wp), parameter :: slow = 0.3_wp          !! of the imbalance that is left by a step with which Z is made anew [1]
   real(wp), parameter :: shortest = 1.0e-3_wp   !! share of a step that is tried [1]
 
@@ -184,7 +185,7 @@ contains
     integer :: i, first
 
     allocate (size_of(machine%count*size(bearing)), of_force(machine%count*size(bearing)))
-    load = max(sum(abs(machine%force(::2))), tiny(1.0_wp)*1.0e20_wp)
+    load = max(sum(abs(machine%force(::2))), least_load*bearing(1)%bearing%force_scale())
     do i = 1, size(bearing)
       half = 0.5_wp*bearing(i)%bearing%pad(1)%film%width
       first = (i - 1)*machine%count

@@ -94,6 +94,7 @@ contains
     call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '// &
                   text(self%machine%shaft%coordinates())//' motions, of which '// &
                   text(self%machine%count*size(self%machine%journal))//' at journals')
+    if (.not. any(abs(self%machine%force) > 0.0_wp)) call log%line('neither weight nor loads: journals stand in the middle of their sleeves')
     call bearing_loads(self%machine, load, regular)
     allocate (self%part(size(self%machine%journal)))
     do i = 1, size(self%part)
