@@ -336,6 +336,15 @@ class PythonTest(unittest.TestCase):
         values = gfb.Case.parse("&a b=3*1.0 c=.true., f d='x!/&' ! no\n e=1d-3 /")
         self.assertEqual(values.groups["a"], {"b": (1.0, 1.0, 1.0), "c": (True, False), "d": "x!/&", "e": 1.0e-3})
 
+    def test_a_machine_runs_in_any_folder(self):
+        case = gfb.Case.read(ROOT/"inputs/machines/rotor.nml")
+        self.assertTrue(all(pathlib.Path(file).is_file() for file in case["bearings%files"]))
+        case["scene%analysis"] = "equilibrium"
+        for group in ("dynamics", "unbalance"):
+            del case.groups[group]
+        answer = gfb.run(case, self.folder)
+        self.assertGreater(answer["minimum_gap_2"], 5.0e-6)
+
     def test_study(self):
         values = {"bearing%clearance": [2.0e-5, 2.5e-5], "operation%speed_rpm": [20000.0, 24000.0]}
         first = gfb.study(gfb.Case(SMALL), values, self.folder)

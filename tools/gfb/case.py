@@ -38,8 +38,12 @@ class Case(MutableMapping[str, Any]):
 
     @classmethod
     def read(cls, path: PathLike) -> Case:
-        """A case file."""
-        return cls.parse(read_text(path))
+        """A case file. Those of a machine's bearings are named by their whole paths then: the case may be run in any folder."""
+        case = cls.parse(read_text(path))
+        if "bearings%files" in case:
+            folder = pathlib.Path(path).resolve().parent
+            case["bearings%files"] = tuple(str(folder/file) for file in case.listed("bearings%files"))
+        return case
 
     @classmethod
     def parse(cls, text: str) -> Case:
