@@ -12,6 +12,7 @@ import importlib.util
 import os
 import pathlib
 import re
+import shutil
 import shlex
 import subprocess
 import sys
@@ -107,6 +108,7 @@ class Runs(unittest.TestCase):
         for path in (PROJECT/"inputs").glob("*.nml"):
             changes = next((changes for pattern, changes in OF_PAGES if re.fullmatch(pattern, path.stem)), {})
             (cls.folder/"inputs"/path.name).write_text(changed(path.read_text(encoding="utf-8"), changes), encoding="utf-8")
+        shutil.copytree(PROJECT/"inputs/machines", cls.folder/"inputs/machines")
         # What a page calls CASE is any case of one's own: here a sweep on springs, small enough for eight ranks.
         sweep = (cls.folder/"inputs/foundation_tilt_sweep.nml").read_text(encoding="utf-8")
         for name in ("CASE", "CASE1", "CASE2"):
