@@ -102,7 +102,7 @@ def values_of(text):
 
 def check_echoes(program):
     """What is wrong with the echoes of all inputs as case files, one a line."""
-    wrong, inputs = [], sorted((ROOT/"inputs").glob("*.nml"))
+    wrong, inputs = [], sorted([*(ROOT/"inputs").glob("*.nml"), *(ROOT/"inputs/machines").glob("*.nml")])
     with tempfile.TemporaryDirectory() as name:
         path = pathlib.Path(name)/"used.nml"
         for source in inputs:

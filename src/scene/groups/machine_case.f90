@@ -76,6 +76,8 @@ contains
     integer :: i, line
 
     do i = 1, size(of_bearings)
+      where (keys%book%groups%name == of_bearings(i)) keys%book%groups%is_echoed = .false.
+      where (keys%book%keys%group == of_bearings(i)) keys%book%keys%is_echoed = .false.
       line = keys%line_of_group(trim(of_bearings(i)))
       if (line > 0) call keys%complaints%add(line, '&'//trim(of_bearings(i))//': the group '// &
                                              'belongs into the files of the bearings')
