@@ -192,6 +192,23 @@ contains
     if (size(values) == 1) values = spread(values(1), 1, count)
   end subroutine read_values
 
+  !> Values in the plane of x and in that of y, two keys.
+  subroutine read_planes(keys, count, name, values, unit, meaning, way)
+    type(case_keys_type), intent(inout) :: keys
+    integer, intent(in) :: count !! of what has them
+    character(len=*), intent(in) :: name !! of the keys, without their axes
+    real(wp), allocatable, intent(out) :: values(:, :) !! (x and y, count) [their unit]
+    character(len=*), intent(in) :: unit, meaning
+    character(len=*), intent(in) :: way !! along or about the axes
+    real(wp), allocatable :: x(:), y(:)
+
+    call read_values(keys, count, name//'_x', x, unit, meaning//', '//way//' x', any_value, &
+                     .false., '0')
+    call read_values(keys, count, name//'_y', y, unit, 'the same '//way//' y', any_value, &
+                     .false., '0')
+    values = transpose(reshape([x, y], [count, 2]))
+  end subroutine read_planes
+
   !> `&discs`.
   subroutine read_discs(keys, machine, analysis)
     type(case_keys_type), intent(inout) :: keys
@@ -229,7 +246,6 @@ contains
     type(machine_case_type), intent(inout) :: machine
     type(analysis_row_type), intent(in) :: analysis
     character(len=*), parameter :: group = 'bearings'
-    real(wp), allocatable :: x(:), y(:)
     integer :: n
 
     call keys%start_group(group, required=machine%present, optional=.not. machine%present, &
@@ -244,15 +260,10 @@ contains
     call keys%rule(group, 'positions', size(machine%bearing_position) /= n .and. n > 0, &
                    'must have one value a file: '//text(n)//', not '// &
                    text(size(machine%bearing_position)))
-    call read_values(keys, n, 'offset_x', x, 'm', 'how far each sleeve stands off the line of '// &
-                     'the machine, along x', any_value, .false., '0')
-    call read_values(keys, n, 'offset_y', y, 'm', 'the same along y', any_value, .false., '0')
-    machine%offset = transpose(reshape([x, y], [n, 2]))
-    call read_values(keys, n, 'misalignment_x', x, 'rad', 'how each sleeve is turned out of '// &
-                     'the line of the machine, about x', any_value, .false., '0')
-    call read_values(keys, n, 'misalignment_y', y, 'rad', 'the same about y', any_value, .false., &
-                     '0')
-    machine%misalignment = transpose(reshape([x, y], [n, 2]))
+    call read_planes(keys, n, 'offset', machine%offset, 'm', 'how far each sleeve stands off '// &
+                     'the line of the machine', 'along')
+    call read_planes(keys, n, 'misalignment', machine%misalignment, 'rad', 'how each sleeve is '// &
+                     'turned out of the line of the machine', 'about')
   end subroutine read_bearings
 
   !> `&loads`.
@@ -260,7 +271,6 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(machine_case_type), intent(inout) :: machine
     type(analysis_row_type), intent(in) :: analysis
-    real(wp), allocatable :: x(:), y(:)
     logical :: given
     integer :: n
 
@@ -270,14 +280,9 @@ contains
                             'forces and moments act on the shaft, from its first end', &
                             not_negative, given .and. machine%present)
     n = size(machine%load_position)
-    call read_values(keys, n, 'forces_x', x, 'N', 'force of each on the shaft, along x', &
-                     any_value, .false., '0')
-    call read_values(keys, n, 'forces_y', y, 'N', 'the same along y', any_value, .false., '0')
-    machine%force = transpose(reshape([x, y], [n, 2]))
-    call read_values(keys, n, 'moments_x', x, 'N m', 'moment of each on the shaft, about x', &
-                     any_value, .false., '0')
-    call read_values(keys, n, 'moments_y', y, 'N m', 'the same about y', any_value, .false., '0')
-    machine%moment = transpose(reshape([x, y], [n, 2]))
+    call read_planes(keys, n, 'forces', machine%force, 'N', 'force of each on the shaft', 'along')
+    call read_planes(keys, n, 'moments', machine%moment, 'N m', 'moment of each on the shaft', &
+                     'about')
   end subroutine read_loads
 
   !> `&machine`.

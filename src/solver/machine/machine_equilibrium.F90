@@ -54,9 +54,7 @@ module gfb_machine_equilibrium
     real(wp), allocatable :: motion(:) !! a: of all journals, one after the other [m], [rad]
     real(wp), allocatable :: force(:)  !! f: of the films on the shaft [N], [N m]
     type(held_shaft_type) :: held
-    real(wp) :: imbalance = 0.0_wp     !! that is left, over the load [1]
     integer :: steps = 0
-    integer :: linearisations = 0      !! of a bearing for Z, each one factorization of complex equations
   end type machine_equilibrium_type
 
 contains
@@ -170,7 +168,6 @@ contains
       end if
     end do
     call log%is_on('')
-    answer%imbalance = norm
     answer%converged = norm < balanced
     if (.not. answer%converged) answer%reason = 'shaft and films did not come to balance in '//text(answer%steps)//' steps'
   end subroutine find_machine_equilibrium
@@ -261,7 +258,6 @@ contains
       associate (first => (i - 1)*machine%count + 1, last => i*machine%count)
         call find_stiffness(bearing(i), machine%count, stiffness(first:last, first:last), found)
       end associate
-      answer%linearisations = answer%linearisations + 1
       if (found) cycle
       answer%reason = 'bearing '//text(i)//': its linearised equations cannot be factorized'
       return

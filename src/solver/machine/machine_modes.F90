@@ -14,6 +14,7 @@ module gfb_machine_modes
   use gfb_kinds, only: wp
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text
+  use gfb_sorting, only: sort_by
   use gfb_linear_solve, only: solve_general
   use gfb_shaft, only: motions
   use gfb_shaft_basis, only: shaft_basis
@@ -115,6 +116,7 @@ contains
     character(len=:), allocatable, intent(out) :: reason !! why some were not found; empty where all were
     type(machine_mode_type), allocatable :: start(:)
     type(machine_mode_type) :: one
+    integer, allocatable :: order(:)
     logical :: found
     integer :: i, k
 
@@ -142,7 +144,9 @@ contains
       mode = [mode, one]
     end do
     call log%is_on('')
-    call sort_modes(mode)
+    order = [(i, i=1, size(mode))]
+    call sort_by(-real(mode%rate, wp), order) ! growth falls
+    mode = mode(order)
   end subroutine find_machine_modes
 
   !> Eigenvalues of shaft and rational functions, those that may be modes.
@@ -321,22 +325,6 @@ contains
     i = maxloc(abs(motion(::2)), 1)
     mode%shape = motion/motion(2*i - 1)
   end subroutine sharpen
-
-  !> Growth falling.
-  subroutine sort_modes(mode)
-    type(machine_mode_type), intent(inout) :: mode(:)
-    type(machine_mode_type) :: one
-    integer :: i, k
-
-    do i = 2, size(mode)
-      one = mode(i)
-      do k = i - 1, 1, -1
-        if (real(mode(k)%rate) >= real(one%rate)) exit
-        mode(k + 1) = mode(k)
-      end do
-      mode(k + 1) = one
-    end do
-  end subroutine sort_modes
 
   !> Motions \( q e^{i \Omega t} \) of the shaft by forces that turn with it.
   subroutine find_machine_response(machine, linear, force, motion, found)

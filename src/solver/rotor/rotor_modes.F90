@@ -24,6 +24,7 @@ module gfb_rotor_modes
   use gfb_rotor_determinant, only: solve_mode, begin_circle, count_missing, first_move, rounded, most_trials
   use gfb_mode_owner, only: of_rotor, owner_of, is_of_shaft, find_branches, least_share
   use gfb_text, only: text
+  use gfb_sorting, only: sort_by
   use gfb_rotor_pencil, only: pencil_mode_type, relaxation_type, find_pencil_modes, find_moving_share, has_pencil, &
                               skip_inner_modes, relaxation_of
   use gfb_vibration_law, only: vibration_type
@@ -331,17 +332,11 @@ contains
   !> Puts modes in the order of falling growth.
   pure subroutine sort_modes(mode)
     type(rotor_mode_type), intent(inout) :: mode(:)
-    type(rotor_mode_type) :: one
-    integer :: i, k
+    integer :: order(size(mode)), i
 
-    do i = 2, size(mode)
-      one = mode(i)
-      do k = i - 1, 1, -1
-        if (real(mode(k)%rate) >= real(one%rate)) exit
-        mode(k + 1) = mode(k)
-      end do
-      mode(k + 1) = one
-    end do
+    order = [(i, i=1, size(mode))]
+    call sort_by(-real(mode%rate, wp), order)
+    mode = mode(order)
   end subroutine sort_modes
 
   !> A rotor's mode along its axis on a thrust bearing, next to that of the stiffness at a frequency: a zero of

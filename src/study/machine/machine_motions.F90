@@ -10,7 +10,7 @@ module gfb_machine_motions
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
   use gfb_case_file, only: case_array_type, add_array
-  use gfb_shaft, only: shaft_motions => motions, node_at
+  use gfb_shaft, only: shaft_motions => motions, node_at, journal_places
   use gfb_machine, only: machine_type
   use gfb_machine_modes, only: linear_bearing_type, machine_mode_type, find_machine_modes, find_machine_response
   use gfb_rotor, only: whirl_sense
@@ -109,7 +109,7 @@ contains
           call add_result(summary, 'growth_rate', growth_of(last))
           call add_result(summary, 'whirl_frequency', frequency_of(last))
         end if
-        call add_modes(motions, sweeps, arrays)
+        call add_modes(machine, motions, sweeps, arrays)
       end if
       if (allocated(last%response)) then
         call show_response(machine, last%response, log)
@@ -140,7 +140,8 @@ contains
   end subroutine show_modes
 
   !> The modes as arrays: a row each, of a sweep a row a point, which has NaN at its end where others have more.
-  subroutine add_modes(motions, sweeps, arrays)
+  subroutine add_modes(machine, motions, sweeps, arrays)
+    type(machine_type), intent(in) :: machine
     type(machine_motions_type), intent(in) :: motions(:)
     logical, intent(in) :: sweeps
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
@@ -148,11 +149,10 @@ contains
     real(wp) :: of_mode(size(names))
     integer :: i, k, most
 
-    most = 1
+    most = merge(1, 0, sweeps)
     do k = 1, size(motions)
       most = max(most, size(motions(k)%mode))
     end do
-    if (.not. sweeps) most = size(motions(1)%mode)
     allocate (table(most, size(motions), size(names)), source=ieee_value(1.0_wp, ieee_quiet_nan))
     do k = 1, size(motions)
       do i = 1, size(motions(k)%mode)
@@ -169,7 +169,7 @@ contains
     end do
     associate (last => motions(size(motions)))
       if (size(last%mode) == 0) return
-      shape = reshape([(by_nodes(last%mode(i)%shape), i=1, size(last%mode))], [2*size(last%mode(1)%shape), size(last%mode)])
+      shape = reshape([(by_nodes(machine, last%mode(i)%shape), i=1, size(last%mode))], [2*size(last%mode(1)%shape), size(last%mode)])
     end associate
     call add_array(arrays, '/dynamics/mode_shape', 'mixed SI', 'of each mode, of a sweep at its last point: real and imaginary part '// &
                    'of x, y [m], rotation about x and y [rad], node by node of /shaft/line', shape)
@@ -180,16 +180,9 @@ contains
     character(len=*), intent(in) :: words
     integer, intent(in) :: width
     character(len=width) :: padded
-    padded = adjustr(padded_to(words, width))
-  end function right_text
-
-  !> Text at the left of a column.
-  pure function padded_to(words, width) result(padded)
-    character(len=*), intent(in) :: words
-    integer, intent(in) :: width
-    character(len=width) :: padded
     padded = words
-  end function padded_to
+    padded = adjustr(padded)
+  end function right_text
 
   !> How a motion goes round where it is largest.
   pure real(wp) function sense_of(motion) result(sense)
@@ -202,15 +195,17 @@ contains
   end function sense_of
 
   !> A motion of the shaft, node by node: real and imaginary parts of x, y, theta_x, theta_y.
-  pure function by_nodes(motion) result(values)
+  pure function by_nodes(machine, motion) result(values)
+    type(machine_type), intent(in) :: machine
     complex(wp), intent(in) :: motion(:) !! of the shaft
-    real(wp) :: values(4*size(motion)/2)
+    real(wp) :: values(2*size(motion))
     complex(wp) :: one(shaft_motions)
-    integer :: k, n
+    real(wp) :: sign(shaft_motions)
+    integer :: k, place(shaft_motions)
 
-    n = size(motion)/2
-    do k = 1, n/2
-      one = [motion(2*k - 1), motion(n + 2*k - 1), -motion(n + 2*k), motion(2*k)]
+    do k = 1, size(machine%shaft%z)
+      call journal_places(machine%shaft, k, place, sign)
+      one = sign*motion(place)
       values(8*k - 7:8*k:2) = real(one, wp)
       values(8*k - 6:8*k:2) = aimag(one)
     end do
@@ -272,5 +267,4 @@ contains
     complex(wp), intent(in) :: number
     phase = atan2(aimag(number), real(number, wp))
   end function phase_of
-
 end module gfb_machine_motions

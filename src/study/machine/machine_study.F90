@@ -7,11 +7,10 @@ module gfb_machine_study
   use gfb_text, only: text
   use gfb_units, only: micrometres
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type, add_quantity
+  use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
-  use gfb_scene_point, only: operating_point
   use gfb_analysis_row, only: analysis_equilibrium
   use gfb_model_case, only: half_width_no, half_width_yes
   use gfb_memory_check, only: check_memory
@@ -21,9 +20,9 @@ module gfb_machine_study
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_builder, only: check_meshes
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_shaft, only: motions, body_type
+  use gfb_shaft, only: motions, body_type, journal_places
   use gfb_held_shaft, only: held_shaft_type, free_motions
-  use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads, place_of_sleeve
+  use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_modes, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of, frequency_of
@@ -104,8 +103,10 @@ contains
         call log%line('bearing '//text(i)//' at '//text(self%machine%journal(i)%position*1.0e3_wp, 5)//' mm, '// &
                       trim(scene%machine%file(i))//':')
         part%scene%operation%load = 0.0_wp
-        if (regular) part%scene%operation%load = load(:, i)
-        if (regular) call log%line('load by levers ('//text(load(1, i), 5)//', '//text(load(2, i), 5)//') N')
+        if (regular) then
+          part%scene%operation%load = load(:, i)
+          call log%line('load by levers ('//text(load(1, i), 5)//', '//text(load(2, i), 5)//') N')
+        end if
         call plan_bearing(part%scene, log, part%plan)
         self%memory = self%memory + part%plan%memory
       end associate
@@ -294,7 +295,7 @@ contains
     allocate (row%quantity(0))
     call add_result(row%quantity, 'speed_rpm', scene%sweep%values(point))
     do i = 1, size(self%part)
-      call add_bearing(i, bearing_answer(self%part(i)%solution%bearing, stresses=.false.), row%quantity)
+      call add_bearing(i, bearing_answer(self%part(i)%solution%bearing), row%quantity)
     end do
     words = 'point '//text(point)//' of '//text(size(scene%sweep%values))//': '//text(scene%sweep%values(point))//' rpm'
     if (allocated(self%motions(point)%mode)) then
@@ -408,6 +409,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type), allocatable :: grids(:)
+    type(bearing_answer_type) :: answer
     real(wp) :: memory(1)
     integer :: i, before
 
@@ -421,8 +423,9 @@ contains
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
       associate (bearing => self%part(i)%solution%bearing)
-        call add_bearing(i, bearing_answer(bearing, stresses=.true.), summary)
-        call show_bearing(i, bearing_answer(bearing, stresses=.false.), context%log)
+        answer = bearing_answer(bearing)
+        call add_bearing(i, answer, summary)
+        call show_bearing(i, answer, context%log)
         before = size(grids)
         call add_film_grid(bearing, scene%output, grids)
         call add_foil_grids(bearing, grids)
@@ -453,7 +456,7 @@ contains
     end do
   end subroutine name_grids
 
-  !> The body, and the power of all films.
+  !> The body.
   subroutine add_machine(self, summary)
     class(machine_study_type), intent(in) :: self
     type(quantity_type), allocatable, intent(inout) :: summary(:)
@@ -504,17 +507,16 @@ contains
     class(machine_study_type), intent(in) :: self
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
     real(wp), allocatable :: line(:), table(:, :)
-    integer :: n
+    real(wp) :: sign(motions)
+    integer :: k, place(motions)
 
     associate (shaft => self%machine%shaft)
-      n = 2*size(shaft%z)
       line = free_motions(self%answer%held, self%answer%motion)
-      allocate (table(5, size(shaft%z)))
-      table(1, :) = shaft%z
-      table(2, :) = line(1:n:2)
-      table(3, :) = line(n + 1::2)
-      table(4, :) = -line(n + 2::2)
-      table(5, :) = line(2:n:2)
+      allocate (table(1 + motions, size(shaft%z)))
+      do k = 1, size(shaft%z)
+        call journal_places(shaft, k, place, sign)
+        table(:, k) = [shaft%z(k), sign*line(place)]
+      end do
       call add_array(arrays, '/shaft/line', 'mixed SI', 'z [m], x, y [m], rotation about x and y [rad] of the shaft''s nodes', table)
     end associate
   end subroutine add_shaft_line
