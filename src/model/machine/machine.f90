@@ -12,6 +12,7 @@ module gfb_machine
   use gfb_shaft_element, only: shaft_section
   use gfb_shaft, only: shaft_type, segment_type, disc_type, motions, build_shaft, journal_places, &
                        node_at
+  use gfb_shaft_equations, only: shaft_equations_type, shaft_equations
   use gfb_held_shaft, only: held_shaft_type, hold_shaft
   implicit none (type, external)
   private
@@ -31,6 +32,7 @@ module gfb_machine
   !> The machine.
   type, public :: machine_type
     type(shaft_type) :: shaft
+    type(shaft_equations_type) :: equations !! of all that moves
     type(journal_type), allocatable :: journal(:)
     integer :: count = motions            !! motions of a journal that its film feels
     real(wp), allocatable :: force(:)     !! on the shaft: weight and loads [N], [N m]
@@ -71,6 +73,7 @@ contains
     real(wp) :: sign(motions)
 
     machine%shaft = machine_shaft(asked, positions)
+    machine%equations = shaft_equations(machine%shaft)
     machine%speed = angular_speed(asked%speed_rpm)
     machine%count = merge(motions, ways, asked%journal_tilts)
     allocate (machine%journal(size(asked%bearing_position)))
@@ -102,8 +105,8 @@ contains
     logical, intent(out) :: regular !! else nothing holds it
     integer :: i
 
-    call hold_shaft(real(machine%shaft%dynamic_stiffness((0.0_wp, 0.0_wp), machine%speed), wp), &
-                    machine%force, &
+    call hold_shaft(real(machine%equations%dynamic_stiffness((0.0_wp, 0.0_wp), &
+                         machine%speed), wp), machine%force, &
                     [(machine%journal(i)%place(:count), i=1, size(machine%journal))], &
                     [(machine%journal(i)%sign(:count), i=1, size(machine%journal))], held, regular)
   end subroutine hold_at_rest

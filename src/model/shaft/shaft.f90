@@ -53,7 +53,7 @@ module gfb_shaft
     real(wp), allocatable :: weight(:)        !! force of an acceleration of 1 [kg], [kg m]
     real(wp) :: material_damping = 0.0_wp     !! tau [s]
   contains
-    procedure :: coordinates, dynamic_stiffness, body, bending
+    procedure :: coordinates, body, bending
   end type shaft_type
 
 contains
@@ -163,22 +163,6 @@ contains
     place = [2*node - 1, n + 2*node - 1, n + 2*node, 2*node]
     sign = [1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp]
   end subroutine journal_places
-
-  !> What motions \( q e^{\lambda t} \) need of forces, \( D(\lambda) \), in both planes.
-  pure function dynamic_stiffness(self, rate, speed) result(matrix)
-    class(shaft_type), intent(in) :: self !! the shaft
-    complex(wp), intent(in) :: rate !! lambda; 0 at rest [1/s]
-    real(wp), intent(in) :: speed   !! Omega [rad/s]
-    complex(wp), allocatable :: matrix(:, :)
-    integer :: n
-
-    n = 2*size(self%z)
-    allocate (matrix(2*n, 2*n))
-    matrix(:n, :n) = rate**2*self%mass + (1.0_wp + rate*self%material_damping)*self%stiffness
-    matrix(n + 1:, n + 1:) = matrix(:n, :n)
-    matrix(:n, n + 1:) = speed*(rate*self%polar + self%material_damping*self%stiffness)
-    matrix(n + 1:, :n) = -matrix(:n, n + 1:)
-  end function dynamic_stiffness
 
   !> Mass, centre and inertias, from its rigid motions.
   pure function body(self)

@@ -18,6 +18,7 @@ module gfb_machine_modes
   use gfb_linear_solve, only: solve_general
   use gfb_shaft, only: motions
   use gfb_shaft_basis, only: shaft_basis
+  use gfb_shaft_equations, only: shaft_equations_type
   use gfb_machine, only: machine_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_vibration_law, only: vibration_type
@@ -94,7 +95,7 @@ contains
     complex(wp) :: coefficient(motions, motions)
     integer :: i, n
 
-    matrix = machine%shaft%dynamic_stiffness(rate, machine%speed)
+    matrix = machine%equations%dynamic_stiffness(rate, machine%speed)
     n = machine%count
     found = .true.
     do i = 1, size(linear)
@@ -161,7 +162,7 @@ contains
     complex(wp) :: rate
     integer :: info, k, m, n
 
-    basis = plane_basis(machine, highest)
+    basis = machine_basis(machine, highest)
     m = size(basis, 2)
     call assemble_pair(machine, linear, basis, highest, matrix, unit)
     n = size(matrix, 1)
@@ -174,47 +175,52 @@ contains
       rate = highest*numerator(k)/denominator(k)
       if (aimag(rate) < lowest*highest .or. aimag(rate) > 1.01_wp*highest .or. &
           abs(real(rate)) > most_damped*abs(rate)) cycle
-      start = [start, machine_mode_type(rate, [matmul(basis, vector(:m, k)), matmul(basis, vector(m + 1:2*m, k))])]
+      start = [start, machine_mode_type(rate, matmul(basis, vector(:m, k)))]
     end do
   end subroutine find_starts
 
-  !> Motions of the shaft in one plane that its modes are made of.
-  function plane_basis(machine, highest) result(basis)
+  !> Motions that modes are made of, those of the plane of x first.
+  function machine_basis(machine, highest) result(basis)
     type(machine_type), intent(in) :: machine
     real(wp), intent(in) :: highest !! frequency [rad/s]
-    real(wp), allocatable :: basis(:, :)
+    real(wp), allocatable :: basis(:, :), plane(:, :)
     integer, allocatable :: held(:)
-    integer :: i
+    integer :: i, m, n
 
     held = [(machine%journal(i)%place(1), i=1, size(machine%journal))]
     if (machine%count == motions) held = [held, held + 1]
-    basis = shaft_basis(machine%shaft, held, highest)
-  end function plane_basis
+    plane = shaft_basis(machine%shaft, held, highest)
+    n = size(plane, 1)
+    m = size(plane, 2)
+    allocate (basis(2*n, 2*m), source=0.0_wp)
+    basis(:n, :m) = plane
+    basis(n + 1:, m + 1:) = plane
+  end function machine_basis
 
   !> The pair A, E of \( A x = s E x \) with \( s = \lambda/\omega_0 \) and x the shaft's motions in both planes, their rates,
   !> and the states of each bearing.
   subroutine assemble_pair(machine, linear, basis, unit_of_time, matrix, unit)
     type(machine_type), intent(in) :: machine
     type(linear_bearing_type), intent(in) :: linear(:)
-    real(wp), intent(in) :: basis(:, :) !! of one plane
+    real(wp), intent(in) :: basis(:, :)  !! of all motions
     real(wp), intent(in) :: unit_of_time !! omega_0 [rad/s]
     complex(wp), allocatable, intent(out) :: matrix(:, :), unit(:, :)
     complex(wp), allocatable :: value(:, :), slope(:, :), right(:, :), left(:, :), grown(:, :)
     real(wp), allocatable :: moved(:, :)
-    real(wp), dimension(2*size(basis, 2), 2*size(basis, 2)) :: mass, stiffness, damping
+    type(shaft_equations_type) :: few
     integer :: i, k, m, first, states
     integer, allocatable :: of(:)
 
-    m = 2*size(basis, 2)
-    call reduce_shaft(machine, basis, mass, stiffness, damping)
+    m = size(basis, 2)
+    few = machine%equations%reduced(basis)
     allocate (matrix(2*m, 2*m), unit(2*m, 2*m), source=(0.0_wp, 0.0_wp))
     do i = 1, m
       unit(i, i) = 1.0_wp
       matrix(i, m + i) = 1.0_wp
     end do
-    unit(m + 1:, m + 1:) = mass
-    matrix(m + 1:, :m) = -stiffness/unit_of_time**2
-    matrix(m + 1:, m + 1:) = -damping/unit_of_time
+    unit(m + 1:, m + 1:) = few%mass
+    matrix(m + 1:, :m) = -(few%stiffness + machine%speed*few%circulation)/unit_of_time**2
+    matrix(m + 1:, m + 1:) = -(few%damping + machine%speed*few%gyroscopic)/unit_of_time
     do i = 1, size(linear)
       do k = 1, size(linear(i)%model%part)
         of = linear(i)%response%part(k)%coordinate
@@ -237,50 +243,15 @@ contains
     end do
   end subroutine assemble_pair
 
-  !> Matrices of the shaft alone in few motions of both planes.
-  subroutine reduce_shaft(machine, basis, mass, stiffness, damping)
-    type(machine_type), intent(in) :: machine
-    real(wp), intent(in) :: basis(:, :) !! of one plane
-    real(wp), intent(out), dimension(:, :) :: mass, stiffness, damping
-    real(wp), allocatable :: small(:, :), turned(:, :)
-    integer :: m
-
-    m = size(basis, 2)
-    mass = 0.0_wp
-    stiffness = 0.0_wp
-    damping = 0.0_wp
-    associate (shaft => machine%shaft, speed => machine%speed, time => machine%shaft%material_damping)
-      mass(:m, :m) = matmul(transpose(basis), matmul(shaft%mass, basis))
-      mass(m + 1:, m + 1:) = mass(:m, :m)
-      small = matmul(transpose(basis), matmul(shaft%stiffness, basis))
-      turned = matmul(transpose(basis), matmul(shaft%polar, basis))
-      stiffness(:m, :m) = small
-      stiffness(m + 1:, m + 1:) = small
-      stiffness(:m, m + 1:) = speed*time*small
-      stiffness(m + 1:, :m) = -speed*time*small
-      damping(:m, :m) = time*small
-      damping(m + 1:, m + 1:) = time*small
-      damping(:m, m + 1:) = speed*turned
-      damping(m + 1:, :m) = -speed*turned
-    end associate
-  end subroutine reduce_shaft
-
-  !> Motions of a journal over those of the basis in both planes.
+  !> Motions of a journal over those of the basis.
   function journal_rows(machine, number, basis) result(rows)
     type(machine_type), intent(in) :: machine
     integer, intent(in) :: number !! of the journal
-    real(wp), intent(in) :: basis(:, :) !! of one plane
-    real(wp) :: rows(motions, 2*size(basis, 2))
-    integer :: k, m, n
+    real(wp), intent(in) :: basis(:, :) !! of all motions
+    real(wp) :: rows(motions, size(basis, 2))
 
-    n = size(basis, 1)
-    m = size(basis, 2)
-    rows = 0.0_wp
     associate (place => machine%journal(number)%place, sign => machine%journal(number)%sign)
-      do k = 1, motions
-        if (place(k) <= n) rows(k, :m) = sign(k)*basis(place(k), :)
-        if (place(k) > n) rows(k, m + 1:) = sign(k)*basis(place(k) - n, :)
-      end do
+      rows = spread(sign, 2, size(basis, 2))*basis(place, :)
     end associate
   end function journal_rows
 
@@ -294,8 +265,7 @@ contains
     logical :: found
     integer :: i
 
-    pushed = [matmul(machine%shaft%mass, mode%shape(:size(mode%shape)/2)), &
-              matmul(machine%shaft%mass, mode%shape(size(mode%shape)/2 + 1:))]
+    pushed = matmul(machine%equations%mass, mode%shape)
     row = conjg(pushed)
     here = mode%rate
     before = here*(1.0_wp + first_move)
