@@ -1,11 +1,10 @@
 #include "gfb_petsc.h"
-!> A machine: the case files of its bearings, the equilibrium of all, and what is written of it.
+!> A machine: the case files of its bearings, and the equilibrium of all.
 module gfb_machine_study
   use petscsys
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
-  use gfb_units, only: micrometres
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
@@ -19,13 +18,13 @@ module gfb_machine_study
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_builder, only: check_meshes
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_shaft, only: motions, body_type, journal_places
+  use gfb_shaft, only: body_type
   use gfb_held_shaft, only: held_shaft_type, free_motions
   use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_modes, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
-  use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of, frequency_of
+  use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
+  use gfb_machine_results, only: add_body, add_shaft_line, add_bearing, history_row
   use gfb_root_bracket, only: root_bracket_type
   use gfb_signals, only: stop_agreed
   use gfb_operation_case, only: angular_speed
@@ -33,10 +32,8 @@ module gfb_machine_study
   use gfb_continuation, only: path_report_type
   use gfb_bearing_solution, only: bearing_solution_type, new_solution
   use gfb_reasons, only: reason_type, reason_no_equilibrium
-  use gfb_case_file, only: case_array_type, history_row_type, add_array
+  use gfb_case_file, only: case_array_type, history_row_type
   use gfb_result_set, only: result_grid_type, write_result_set
-  use gfb_film_grid, only: add_film_grid
-  use gfb_foil_grid, only: add_foil_grids
   use gfb_outcome, only: add_outcome
   use gfb_run_context, only: run_context_type
   use gfb_study, only: study_type
@@ -48,7 +45,6 @@ module gfb_machine_study
   real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
   integer, parameter :: most_trials = 30          !! of the search for an onset
   real(wp), parameter :: onset_tolerance = 1.0e-8_wp !! of its speed, and of growth over speed [1]
-  character(len=*), parameter :: motion_names(motions) = [character(len=14) :: 'eccentricity_x', 'eccentricity_y', 'tilt_x', 'tilt_y']
 
   !> A bearing of the machine.
   type :: part_type
@@ -288,22 +284,11 @@ contains
     type(scene_type), intent(in) :: scene !! of the machine
     integer, intent(in) :: point !! of its sweep
     type(run_log_type), intent(in) :: log
-    type(history_row_type) :: row
     character(len=:), allocatable :: words
-    integer :: i
 
-    allocate (row%quantity(0))
-    call add_result(row%quantity, 'speed_rpm', scene%sweep%values(point))
-    do i = 1, size(self%part)
-      call add_bearing(i, bearing_answer(self%part(i)%solution%bearing), row%quantity)
-    end do
+    self%history = [self%history, history_row(scene%sweep%values(point), self%bearing, self%motions(point))]
     words = 'point '//text(point)//' of '//text(size(scene%sweep%values))//': '//text(scene%sweep%values(point))//' rpm'
-    if (allocated(self%motions(point)%mode)) then
-      call add_result(row%quantity, 'growth_rate', growth_of(self%motions(point)))
-      call add_result(row%quantity, 'whirl_frequency', frequency_of(self%motions(point)))
-      words = words//', growth '//text(growth_of(self%motions(point)), 4)//' 1/s'
-    end if
-    self%history = [self%history, row]
+    if (allocated(self%motions(point)%mode)) words = words//', growth '//text(growth_of(self%motions(point)), 4)//' 1/s'
     call log%line(words)
   end subroutine record_point
 
@@ -409,28 +394,19 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type), allocatable :: grids(:)
-    type(bearing_answer_type) :: answer
     real(wp) :: memory(1)
-    integer :: i, before
+    integer :: i
 
     call context%log%heading('answer')
     call add_result(summary, 'analysis', trim(scene%general%asked%word))
     call add_result(summary, 'converged', self%converged)
     allocate (arrays(0), grids(0))
-    call add_machine(self, summary)
-    if (self%converged) call add_shaft_line(self, arrays)
+    call add_body(self%machine, summary)
+    if (self%converged) call add_shaft_line(self%machine, self%answer, arrays)
     if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
-      associate (bearing => self%part(i)%solution%bearing)
-        answer = bearing_answer(bearing)
-        call add_bearing(i, answer, summary)
-        call show_bearing(i, answer, context%log)
-        before = size(grids)
-        call add_film_grid(bearing, scene%output, grids)
-        call add_foil_grids(bearing, grids)
-        call name_grids(i, grids(before + 1:))
-      end associate
+      call add_bearing(i, self%part(i)%solution%bearing, scene%output, context%log, summary, grids)
     end do
     if (self%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', self%onset)
     call add_result(summary, 'unknowns', self%unknowns)
@@ -444,82 +420,6 @@ contains
     call write_result_set(scene, context%folder, self%converged, context%origin(), summary, self%history, arrays, grids, &
                           context%csv, context%log, error)
   end subroutine write_machine
-
-  !> Surfaces of a bearing get its number.
-  subroutine name_grids(number, grids)
-    integer, intent(in) :: number !! of the bearing
-    type(result_grid_type), intent(inout) :: grids(:)
-    integer :: i
-
-    do i = 1, size(grids)
-      grids(i)%name = 'bearing_'//text(number)//'.'//grids(i)%name
-    end do
-  end subroutine name_grids
-
-  !> The body.
-  subroutine add_machine(self, summary)
-    class(machine_study_type), intent(in) :: self
-    type(quantity_type), allocatable, intent(inout) :: summary(:)
-    type(body_type) :: body
-
-    body = self%machine%shaft%body()
-    call add_result(summary, 'mass', body%mass)
-    call add_result(summary, 'centre_of_mass', body%centre)
-    call add_result(summary, 'transverse_inertia', body%transverse_inertia)
-    call add_result(summary, 'polar_inertia', body%polar_inertia)
-  end subroutine add_machine
-
-  !> A bearing's answer.
-  subroutine add_bearing(number, answer, summary)
-    integer, intent(in) :: number !! of the bearing
-    type(bearing_answer_type), intent(in) :: answer
-    type(quantity_type), allocatable, intent(inout) :: summary(:)
-    character(len=:), allocatable :: behind
-    integer :: k
-
-    behind = '_'//text(number)
-    associate (place => answer%place([1, 2, 4, 5]))
-      do k = 1, motions
-        call add_result(summary, trim(motion_names(k))//behind, place(k))
-      end do
-    end associate
-    call add_result(summary, 'force_x'//behind, answer%force(1))
-    call add_result(summary, 'force_y'//behind, answer%force(2))
-    call add_result(summary, 'torque_x'//behind, answer%force(4))
-    call add_result(summary, 'torque_y'//behind, answer%force(5))
-    call add_result(summary, 'minimum_gap'//behind, answer%minimum_gap)
-    call add_result(summary, 'maximum_pressure'//behind, answer%maximum_pressure)
-    call add_result(summary, 'power_loss'//behind, answer%power_loss)
-  end subroutine add_bearing
-
-  !> The same as a line of the log.
-  subroutine show_bearing(number, answer, log)
-    integer, intent(in) :: number !! of the bearing
-    type(bearing_answer_type), intent(in) :: answer
-    type(run_log_type), intent(in) :: log
-    call log%line('bearing '//text(number)//'        film '//text(answer%minimum_gap*micrometres, 4)//' um, force ('// &
-                  text(answer%force(1), 5)//', '//text(answer%force(2), 5)//') N, tilt ('//text(answer%place(4)*1.0e6_wp, 4)// &
-                  ', '//text(answer%place(5)*1.0e6_wp, 4)//') urad, '//text(answer%power_loss, 4)//' W')
-  end subroutine show_bearing
-
-  !> The static line of the shaft.
-  subroutine add_shaft_line(self, arrays)
-    class(machine_study_type), intent(in) :: self
-    type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    real(wp), allocatable :: line(:), table(:, :)
-    real(wp) :: sign(motions)
-    integer :: k, place(motions)
-
-    associate (shaft => self%machine%shaft)
-      line = free_motions(self%answer%held, self%answer%motion)
-      allocate (table(1 + motions, size(shaft%z)))
-      do k = 1, size(shaft%z)
-        call journal_places(shaft, k, place, sign)
-        table(:, k) = [shaft%z(k), sign*line(place)]
-      end do
-      call add_array(arrays, '/shaft/line', 'mixed SI', 'z [m], x, y [m], rotation about x and y [rad] of the shaft''s nodes', table)
-    end associate
-  end subroutine add_shaft_line
 
   !> Frees what the solvers hold.
   subroutine discard_machine(self)
