@@ -14,16 +14,26 @@ module gfb_rotor_determinant
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients
   use gfb_rotor, only: rotor_type, cylindrical, dynamic_matrix, determinant
-  use gfb_zero_count, only: mode_count_type
+  use gfb_counted_function, only: counted_function_type
   implicit none (type, external)
   private
-  public :: find_determinant, solve_mode, begin_circle, count_missing
+  public :: find_determinant, film_determinant, solve_mode, safe_log
 
   real(wp), parameter, public :: first_move = 1.0e-5_wp !! of the secant method, over the rate [1]
   real(wp), parameter :: tolerance = 1.0e-11_wp !! of a rate [1]
   real(wp), parameter, public :: rounded = 1.0e-8_wp    !! change of a rate that is accepted where it becomes no smaller [1]
   real(wp), parameter :: farthest = 0.05_wp     !! from its start is another mode, over the rate [1]
   integer, parameter, public :: most_trials = 30        !! of the secant method
+
+  !> The determinant of the motions of a kind.
+  type, extends(counted_function_type), public :: rotor_determinant_type
+    type(bearing_system_type), pointer :: bearing => null() !! as it was when the response was created
+    type(dynamic_response_type), pointer :: response => null() !! of it
+    type(rotor_type) :: rotor !! on the bearing
+    integer :: kind = cylindrical !! of the motions
+  contains
+    procedure :: evaluate => evaluate_determinant
+  end type rotor_determinant_type
 
 contains
 
@@ -39,7 +49,6 @@ contains
     logical, intent(out) :: found !! the matrices could be factorized
     complex(wp), intent(out), optional :: of_film !! part of it that is film and foil about a shaft that is held [1]
     complex(wp) :: coefficient(journal_motions, journal_motions), of_rotor
-    integer :: i
 
     call find_coefficients(bearing, response, rate, coefficient, found, only_translations=kind == cylindrical)
     if (.not. found) return
@@ -47,58 +56,33 @@ contains
     logarithm = of_rotor
     if (present(of_film)) of_film = 0.0_wp
     if (.not. response%part(1)%solver%has_determinant()) return
-    do i = 1, merge(1, size(response%part), kind == cylindrical)
-      logarithm = logarithm + response%part(i)%solver%log_determinant()
-    end do
-    if (kind /= cylindrical .and. allocated(response%opposite)) then
-      logarithm = logarithm + response%opposite%part(1)%solver%log_determinant()
-    end if
+    call film_determinant(response, kind == cylindrical, logarithm)
     if (present(of_film)) of_film = logarithm - of_rotor
   end subroutine find_determinant
 
-  !> Visits the first places of a circle.
-  subroutine begin_circle(bearing, response, rotor, kind, count, found)
-    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(inout) :: response !! of it
-    type(rotor_type), intent(in) :: rotor !! on the bearing
-    integer, intent(in) :: kind !! of the motions
-    type(mode_count_type), intent(inout) :: count !! along the circle
-    logical, intent(out) :: found !! the matrices could be factorized
-    complex(wp) :: logarithm
-    real(wp) :: angle
+  !> Adds the logarithm of the determinant of film and foil about a shaft that is held, at the rate of the last coefficients.
+  subroutine film_determinant(response, only_translations, logarithm)
+    type(dynamic_response_type), intent(in) :: response !! whose solver has determinants
+    logical, intent(in) :: only_translations !! tilts were not asked for
+    complex(wp), intent(inout) :: logarithm !! gets it added [1]
     integer :: i
 
-    do i = 0, count%steps
-      angle = count%next()
-      call find_determinant(bearing, response, rotor, kind, count%place(angle), logarithm, found)
-      if (.not. found) return
-      call count%tell(angle, logarithm)
+    do i = 1, merge(1, size(response%part), only_translations)
+      logarithm = logarithm + response%part(i)%solver%log_determinant()
     end do
-  end subroutine begin_circle
+    if (.not. only_translations .and. allocated(response%opposite)) then
+      logarithm = logarithm + response%opposite%part(1)%solver%log_determinant()
+    end if
+  end subroutine film_determinant
 
-  !> Counts the modes in a circle about a real rate that are not known.
-  subroutine count_missing(bearing, response, rotor, kind, count, missing, found)
-    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(inout) :: response !! of it
-    type(rotor_type), intent(in) :: rotor !! on the bearing
-    integer, intent(in) :: kind !! of the motions
-    type(mode_count_type), intent(inout) :: count !! the circle, and the modes that are known
-    integer, intent(out) :: missing !! each of a conjugate pair counts
-    logical, intent(out) :: found !! the matrices could be factorized, and the circle runs through no mode
-    complex(wp) :: logarithm
-    real(wp) :: angle
-
-    missing = 0
-    do
-      angle = count%next()
-      if (angle < 0.0_wp) exit
-      call find_determinant(bearing, response, rotor, kind, count%place(angle), logarithm, found)
-      if (.not. found) return
-      call count%tell(angle, logarithm)
-    end do
-    found = .not. count%failed
-    if (found) missing = count%missing()
-  end subroutine count_missing
+  !> The same of a motion's kind, as a function whose zeros are counted.
+  subroutine evaluate_determinant(self, rate, logarithm, found)
+    class(rotor_determinant_type), intent(inout) :: self !! the function
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), intent(out) :: logarithm !! of scaled equations [1]
+    logical, intent(out) :: found !! the matrices could be factorized
+    call find_determinant(self%bearing, self%response, self%rotor, self%kind, rate, logarithm, found)
+  end subroutine evaluate_determinant
 
   !> Solves for a zero of the determinant next to a rate by the secant method; other zeros that are known are divided
   !> out, so that the nearest of them do not lead astray. Where film and foil make the determinant so steep that no line follows

@@ -21,7 +21,8 @@ module gfb_rotor_modes
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure
   use gfb_rotor, only: rotor_type, cylindrical, kinds_of, whirl_sense
   use gfb_zero_count, only: mode_count_type, most_places
-  use gfb_rotor_determinant, only: solve_mode, begin_circle, count_missing, first_move, rounded, most_trials
+  use gfb_counted_function, only: begin_circle, count_missing
+  use gfb_rotor_determinant, only: rotor_determinant_type, solve_mode, first_move, rounded, most_trials
   use gfb_mode_owner, only: of_rotor, owner_of, is_of_shaft, find_branches, least_share
   use gfb_text, only: text
   use gfb_sorting, only: sort_by
@@ -183,8 +184,8 @@ contains
 
   !> Counts the modes in a circle in the widest gap between those that are known, but for springs that relax.
   subroutine count_beside(bearing, response, rotor, kind, modes, radius, relaxation, count, missing, found)
-    type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(inout) :: response
+    type(bearing_system_type), target, intent(in) :: bearing
+    type(dynamic_response_type), target, intent(inout) :: response
     type(rotor_type), intent(in) :: rotor
     integer, intent(in) :: kind
     type(pencil_mode_type), intent(in) :: modes(:) !! nearest to the shift first
@@ -197,7 +198,9 @@ contains
     real(wp) :: centre, reach
     integer :: relaxing, i
     logical :: counts
+    type(rotor_determinant_type) :: function
 
+    function = rotor_determinant_type(bearing, response, rotor, kind)
     known = modes%rate ! in a structure constructor GNU Fortran 12 takes wrong strides
     centre = shift*bearing%point%speed
     reach = circle_between(modes, centre, radius)
@@ -206,22 +209,19 @@ contains
     found = .true.
     if (relaxation%present .and. counts) then
       count = mode_count_type(relaxation%rate, circle_between(modes, relaxation%rate, [1.0_wp, room]*relaxation%radius), known)
-      call count_relaxing(bearing, response, rotor, kind, centre - relaxation%rate < reach, count, relaxing, found)
+      call count_relaxing(function, centre - relaxation%rate < reach, count, relaxing, found)
       if (.not. found) return
       known = [known, (cmplx(relaxation%rate, 0.0_wp, wp), i=1, relaxing)]
     end if
     count = mode_count_type(centre, reach, known)
-    if (counts) call count_missing(bearing, response, rotor, kind, count, missing, found)
+    if (counts) call count_missing(function, count, missing, found)
   end subroutine count_beside
 
   !> Counts the modes in a disc that are not known. The mean of the logarithm's real part along a circle grows with the logarithm
   !> of the radius by what is inside (Jensen's formula). With as many taken to lie at the centre the phase has to come back as it
   !> was; where it does not, the steps were too long. Of a disc outside the circle about how many will do.
-  subroutine count_relaxing(bearing, response, rotor, kind, inside, count, relaxing, found)
-    type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(inout) :: response
-    type(rotor_type), intent(in) :: rotor
-    integer, intent(in) :: kind
+  subroutine count_relaxing(function, inside, count, relaxing, found)
+    type(rotor_determinant_type), intent(inout) :: function
     logical, intent(in) :: inside !! the circle
     type(mode_count_type), intent(inout) :: count !! along the disc's
     integer, intent(out) :: relaxing
@@ -231,13 +231,13 @@ contains
 
     do while (count%steps < most_places)
       around = mode_count_type(count%centre, room*count%radius, count%known, count%steps)
-      call begin_circle(bearing, response, rotor, kind, around, found)
-      if (found) call begin_circle(bearing, response, rotor, kind, count, found)
+      call begin_circle(function, around, found)
+      if (found) call begin_circle(function, count, found)
       if (.not. found) return
       relaxing = nint((around%mean() - count%mean())/log(room))
       if (.not. inside) return
       call count%put_at_centre(relaxing)
-      call count_missing(bearing, response, rotor, kind, count, more, found)
+      call count_missing(function, count, more, found)
       if (.not. found .or. more == 0) return
       count = mode_count_type(count%centre, count%radius, count%known, 2*count%steps)
     end do

@@ -12,7 +12,10 @@ module gfb_machine_motions
   use gfb_case_file, only: case_array_type, add_array
   use gfb_shaft, only: shaft_motions => motions, node_at, journal_places
   use gfb_machine, only: machine_type
-  use gfb_machine_modes, only: linear_bearing_type, machine_mode_type, find_machine_modes, find_machine_response
+  use gfb_machine_linear, only: linear_bearing_type
+  use gfb_machine_starts, only: machine_mode_type
+  use gfb_machine_modes, only: find_machine_modes
+  use gfb_machine_response, only: find_machine_response
   use gfb_rotor, only: whirl_sense
   implicit none (type)
   private

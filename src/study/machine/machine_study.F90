@@ -22,7 +22,7 @@ module gfb_machine_study
   use gfb_held_shaft, only: held_shaft_type, free_motions
   use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
-  use gfb_machine_modes, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
+  use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
   use gfb_machine_results, only: add_body, add_shaft_line, add_bearing, history_row
   use gfb_root_bracket, only: root_bracket_type

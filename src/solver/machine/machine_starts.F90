@@ -1,0 +1,148 @@
+#include "gfb_petsc.h"
+!> Where the modes of a machine may be.
+!>
+!> A rational function goes through each \( Z_i \) over the frequencies [MayoAntoulas2007], which
+!> is that of a few equations of first order; with few motions of the shaft they make one linear
+!> eigenvalue problem, whose eigenvalues are all modes.
+module gfb_machine_starts
+  use gfb_kinds, only: wp
+  use gfb_shaft, only: motions
+  use gfb_shaft_basis, only: shaft_basis
+  use gfb_shaft_equations, only: shaft_equations_type
+  use gfb_machine, only: machine_type
+  use gfb_machine_linear, only: linear_bearing_type
+  implicit none (type)
+  private
+  public :: find_starts
+
+  real(wp), parameter :: most_damped = 0.9_wp   !! damping ratio of a mode that is looked for [1]
+  real(wp), parameter :: lowest = 0.02_wp       !! frequency of one over the highest [1]
+
+  interface
+    !> LAPACK: eigenvalues of a general complex pair.
+    subroutine zggev(jobvl, jobvr, n, a, lda, b, ldb, alpha, beta, vl, ldvl, vr, ldvr, work, lwork, rwork, info)
+      import :: wp
+      implicit none (type, external)
+      character(len=1), intent(in) :: jobvl, jobvr
+      integer, intent(in) :: n, lda, ldb, ldvl, ldvr, lwork
+      complex(wp), intent(inout) :: a(lda, n), b(ldb, n)
+      complex(wp), intent(out) :: alpha(n), beta(n), vl(ldvl, n), vr(ldvr, n), work(lwork)
+      real(wp), intent(out) :: rwork(8*n)
+      integer, intent(out) :: info
+    end subroutine zggev
+  end interface
+
+  !> A mode.
+  type, public :: machine_mode_type
+    complex(wp) :: rate = 0.0_wp !! growth + i frequency [1/s]
+    complex(wp), allocatable :: shape(:) !! of the shaft, the largest displacement 1
+    logical :: sharp = .false.   !! solved for with the coefficients at its own rate
+  end type machine_mode_type
+
+contains
+
+  !> Eigenvalues of shaft and rational functions, those that may be modes.
+  subroutine find_starts(machine, linear, highest, start, reason)
+    type(machine_type), intent(in) :: machine
+    type(linear_bearing_type), intent(in) :: linear(:)
+    real(wp), intent(in) :: highest !! frequency, which is the unit of time [rad/s]
+    type(machine_mode_type), allocatable, intent(out) :: start(:)
+    character(len=:), allocatable, intent(inout) :: reason
+    complex(wp), allocatable :: matrix(:, :), unit(:, :), numerator(:), denominator(:), vector(:, :), work(:), none(:, :)
+    real(wp), allocatable :: basis(:, :), room(:)
+    complex(wp) :: rate
+    integer :: info, k, m, n
+
+    basis = machine_basis(machine, highest)
+    m = size(basis, 2)
+    call assemble_pair(machine, linear, basis, highest, matrix, unit)
+    n = size(matrix, 1)
+    allocate (numerator(n), denominator(n), vector(n, n), work(16*n), room(8*n), none(1, n), start(0))
+    call zggev('N', 'V', n, matrix, n, unit, n, numerator, denominator, none, 1, vector, n, work, size(work), room, info)
+    if (info /= 0) reason = 'the eigenvalues of shaft and bearings were not found'
+    if (info /= 0) return
+    do k = 1, n
+      if (.not. abs(denominator(k)) > 1.0e-12_wp*abs(numerator(k))) cycle
+      rate = highest*numerator(k)/denominator(k)
+      if (aimag(rate) < lowest*highest .or. aimag(rate) > 1.01_wp*highest .or. &
+          abs(real(rate)) > most_damped*abs(rate)) cycle
+      start = [start, machine_mode_type(rate, matmul(basis, vector(:m, k)))]
+    end do
+  end subroutine find_starts
+
+  !> Motions that modes are made of, those of the plane of x first.
+  function machine_basis(machine, highest) result(basis)
+    type(machine_type), intent(in) :: machine
+    real(wp), intent(in) :: highest !! frequency [rad/s]
+    real(wp), allocatable :: basis(:, :), plane(:, :)
+    integer, allocatable :: held(:)
+    integer :: i, m, n
+
+    held = [(machine%journal(i)%place(1), i=1, size(machine%journal))]
+    if (machine%count == motions) held = [held, held + 1]
+    plane = shaft_basis(machine%shaft, held, highest)
+    n = size(plane, 1)
+    m = size(plane, 2)
+    allocate (basis(2*n, 2*m), source=0.0_wp)
+    basis(:n, :m) = plane
+    basis(n + 1:, m + 1:) = plane
+  end function machine_basis
+
+  !> The pair A, E of \( A x = s E x \) with \( s = \lambda/\omega_0 \) and x the shaft's motions in both planes, their rates,
+  !> and the states of each bearing.
+  subroutine assemble_pair(machine, linear, basis, unit_of_time, matrix, unit)
+    type(machine_type), intent(in) :: machine
+    type(linear_bearing_type), intent(in) :: linear(:)
+    real(wp), intent(in) :: basis(:, :)  !! of all motions
+    real(wp), intent(in) :: unit_of_time !! omega_0 [rad/s]
+    complex(wp), allocatable, intent(out) :: matrix(:, :), unit(:, :)
+    complex(wp), allocatable :: value(:, :), slope(:, :), right(:, :), left(:, :), grown(:, :)
+    real(wp), allocatable :: moved(:, :)
+    type(shaft_equations_type) :: few
+    integer :: i, k, m, first, states
+    integer, allocatable :: of(:)
+
+    m = size(basis, 2)
+    few = machine%equations%reduced(basis)
+    allocate (matrix(2*m, 2*m), unit(2*m, 2*m), source=(0.0_wp, 0.0_wp))
+    do i = 1, m
+      unit(i, i) = 1.0_wp
+      matrix(i, m + i) = 1.0_wp
+    end do
+    unit(m + 1:, m + 1:) = few%mass
+    matrix(m + 1:, :m) = -(few%stiffness + machine%speed*few%circulation)/unit_of_time**2
+    matrix(m + 1:, m + 1:) = -(few%damping + machine%speed*few%gyroscopic)/unit_of_time
+    do i = 1, size(linear)
+      do k = 1, size(linear(i)%model%part)
+        of = linear(i)%response%part(k)%coordinate
+        if (any(of > machine%count)) cycle
+        call linear(i)%model%part(k)%realise(value, slope, right, left)
+        moved = journal_rows(machine, i, basis)
+        states = size(value, 1)
+        first = size(matrix, 1)
+        call move_alloc(matrix, grown)
+        allocate (matrix(first + states, first + states), source=(0.0_wp, 0.0_wp))
+        matrix(:first, :first) = grown
+        call move_alloc(unit, grown)
+        allocate (unit(first + states, first + states), source=(0.0_wp, 0.0_wp))
+        unit(:first, :first) = grown
+        matrix(m + 1:2*m, first + 1:) = -matmul(transpose(moved(of, :)), left)/unit_of_time
+        matrix(first + 1:, first + 1:) = value
+        matrix(first + 1:, :m) = -matmul(right, moved(of, :))/unit_of_time
+        unit(first + 1:, first + 1:) = slope*unit_of_time
+      end do
+    end do
+  end subroutine assemble_pair
+
+  !> Motions of a journal over those of the basis.
+  function journal_rows(machine, number, basis) result(rows)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the journal
+    real(wp), intent(in) :: basis(:, :) !! of all motions
+    real(wp) :: rows(motions, size(basis, 2))
+
+    associate (place => machine%journal(number)%place, sign => machine%journal(number)%sign)
+      rows = spread(sign, 2, size(basis, 2))*basis(place, :)
+    end associate
+  end function journal_rows
+end module gfb_machine_starts
