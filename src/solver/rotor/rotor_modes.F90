@@ -20,7 +20,7 @@ module gfb_rotor_modes
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type, find_coefficients, response_failure
   use gfb_rotor, only: rotor_type, cylindrical, kinds_of, whirl_sense
-  use gfb_zero_count, only: mode_count_type, most_places
+  use gfb_zero_count, only: mode_count_type, most_places, circle_between
   use gfb_counted_function, only: begin_circle, count_missing
   use gfb_rotor_determinant, only: rotor_determinant_type, solve_mode, first_move, rounded, most_trials
   use gfb_mode_owner, only: of_rotor, owner_of, is_of_shaft, find_branches, least_share
@@ -203,12 +203,12 @@ contains
     function = rotor_determinant_type(bearing, response, rotor, kind)
     known = modes%rate ! in a structure constructor GNU Fortran 12 takes wrong strides
     centre = shift*bearing%point%speed
-    reach = circle_between(modes, centre, radius)
+    reach = circle_between(modes%rate, centre, radius)
     counts = response%part(1)%solver%has_determinant()
     missing = 0
     found = .true.
     if (relaxation%present .and. counts) then
-      count = mode_count_type(relaxation%rate, circle_between(modes, relaxation%rate, [1.0_wp, room]*relaxation%radius), known)
+      count = mode_count_type(relaxation%rate, circle_between(modes%rate, relaxation%rate, [1.0_wp, room]*relaxation%radius), known)
       call count_relaxing(function, centre - relaxation%rate < reach, count, relaxing, found)
       if (.not. found) return
       known = [known, (cmplx(relaxation%rate, 0.0_wp, wp), i=1, relaxing)]
@@ -244,33 +244,6 @@ contains
     count%failed = .true.
     found = .false.
   end subroutine count_relaxing
-
-  !> Radius of a circle in the widest gap between modes.
-  pure function circle_between(modes, centre, limits) result(radius)
-    type(pencil_mode_type), intent(in) :: modes(:) !! that are known
-    real(wp), intent(in) :: centre    !! of the circle [1/s]
-    real(wp), intent(in) :: limits(2) !! least and largest radius [1/s]
-    real(wp) :: radius !! [1/s]
-    real(wp) :: widest, last, next
-    integer :: i
-
-    widest = 0.0_wp
-    radius = limits(1)
-    last = limits(1)
-    do while (last < limits(2))
-      next = limits(2)
-      do i = 1, size(modes)
-        associate (distance => abs(modes(i)%rate - centre))
-          if (distance > last) next = min(next, distance)
-        end associate
-      end do
-      if (next - last > widest) then
-        widest = next - last
-        radius = 0.5_wp*(last + next)
-      end if
-      last = next
-    end do
-  end function circle_between
 
   !> Solves for the mode that decides with the determinant, and with the modes inside condensed pieces.
   subroutine sharpen(bearing, response, rotor, answer)

@@ -18,6 +18,7 @@ module gfb_zero_count
   use gfb_units, only: pi
   implicit none (type, external)
   private
+  public :: circle_between
 
   integer, parameter :: first_steps = 16 !! of the half circle
   !> Of the phase; five times as much would not be seen.
@@ -126,6 +127,33 @@ contains
     integer :: zeros, i
     zeros = nint(sum([(step(count, i), i=2, size(count%angle))])/pi)
   end function missing
+
+  !> Radius of a circle in the widest gap between rates.
+  pure function circle_between(rate, centre, limits) result(radius)
+    complex(wp), intent(in) :: rate(:) !! that are known [1/s]
+    real(wp), intent(in) :: centre     !! of the circle [1/s]
+    real(wp), intent(in) :: limits(2)  !! least and largest radius [1/s]
+    real(wp) :: radius !! [1/s]
+    real(wp) :: widest, last, next
+    integer :: i
+
+    widest = 0.0_wp
+    radius = limits(1)
+    last = limits(1)
+    do while (last < limits(2))
+      next = limits(2)
+      do i = 1, size(rate)
+        associate (distance => abs(rate(i) - centre))
+          if (distance > last) next = min(next, distance)
+        end associate
+      end do
+      if (next - last > widest) then
+        widest = next - last
+        radius = 0.5_wp*(last + next)
+      end if
+      last = next
+    end do
+  end function circle_between
 
   !> How the phase changes from the place before, by less than half a turn, without the share of
   !> zeros far outside.
