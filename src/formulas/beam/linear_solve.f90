@@ -3,7 +3,7 @@ module gfb_linear_solve
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: solve_positive, solve_general
+  public :: solve_positive, solve_general, solve_both_sides, determinant_logarithm
 
   interface
     !> LAPACK: symmetric positive definite equations.
@@ -32,6 +32,26 @@ module gfb_linear_solve
       complex(wp), intent(inout) :: a(lda, n), b(ldb, nrhs)
       integer, intent(out) :: ipiv(n), info
     end subroutine zgesv
+
+    !> LAPACK: factors of a general complex matrix.
+    pure subroutine zgetrf(m, n, a, lda, ipiv, info)
+      import :: wp
+      implicit none (type, external)
+      integer, intent(in) :: m, n, lda
+      complex(wp), intent(inout) :: a(lda, n)
+      integer, intent(out) :: ipiv(n), info
+    end subroutine zgetrf
+
+    !> LAPACK: solution with these.
+    pure subroutine zgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+      import :: wp
+      implicit none (type, external)
+      character(len=1), intent(in) :: trans
+      integer, intent(in) :: n, nrhs, lda, ldb, ipiv(n)
+      complex(wp), intent(in) :: a(lda, n)
+      complex(wp), intent(inout) :: b(ldb, nrhs)
+      integer, intent(out) :: info
+    end subroutine zgetrs
   end interface
 
   !> Equations of any matrix, for one right side or several; complex for one.
@@ -100,4 +120,40 @@ contains
     right_side = column(:, 1)
     solved = info == 0
   end subroutine solve_complex
+
+  !> Solves complex equations, and those of the transposed matrix.
+  pure subroutine solve_both_sides(matrix, right, left, solved)
+    complex(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
+    complex(wp), intent(inout) :: right(:)  !! (n): in the right side, out the solution [SI]
+    complex(wp), intent(inout) :: left(:)   !! (n): the same of the transposed matrix [SI]
+    logical, intent(out) :: solved !! the matrix is regular
+    complex(wp), allocatable :: factor(:, :)
+    integer :: pivots(size(right)), n, info
+
+    n = size(right)
+    factor = matrix
+    call zgetrf(n, n, factor, max(1, n), pivots, info)
+    solved = info == 0
+    if (.not. solved) return
+    call zgetrs('N', n, 1, factor, max(1, n), pivots, right, max(1, n), info)
+    call zgetrs('T', n, 1, factor, max(1, n), pivots, left, max(1, n), info)
+  end subroutine solve_both_sides
+
+  !> Logarithm of a matrix's determinant, up to multiples of 2 pi i; of none that of next to none.
+  pure complex(wp) function determinant_logarithm(matrix) result(logarithm)
+    complex(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
+    complex(wp), allocatable :: factor(:, :)
+    integer :: pivots(size(matrix, 1)), i, n, info
+
+    n = size(matrix, 1)
+    factor = matrix
+    call zgetrf(n, n, factor, max(1, n), pivots, info)
+    logarithm = 0.0_wp
+    do i = 1, n
+      associate (pivot => factor(i, i)*merge(1.0_wp, -1.0_wp, pivots(i) == i))
+        logarithm = logarithm + cmplx(log(max(tiny(1.0_wp), abs(pivot))), &
+                                      atan2(aimag(pivot), real(pivot, wp)), wp)
+      end associate
+    end do
+  end function determinant_logarithm
 end module gfb_linear_solve

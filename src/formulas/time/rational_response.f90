@@ -38,12 +38,13 @@ module gfb_rational_response
     logical :: is_real = .true.
     !> omega of the samples, in the order in which they came [rad/s]
     real(wp), allocatable :: frequency(:)
+    real(wp), allocatable, private :: growth(:) !! delta of their rates, 0 of vibrations [1/s]
     complex(wp), allocatable :: value(:, :, :) !! (force, motion, sample) Z [SI]
     complex(wp), allocatable :: slope(:, :, :) !! dZ/ds there [SI]
     real(wp), allocatable, private :: scale(:) !! makes the coordinates' entries alike
     type(fit_type), private :: fit, fit_before !! to all samples; to all but the last
   contains
-    procedure, non_overridable :: add, has, fits, at, doubt, next_sample, poles, realise
+    procedure, non_overridable :: add, has, fits, at, beside, doubt, next_sample, poles, realise
   end type rational_response_type
 
   interface
@@ -85,19 +86,26 @@ module gfb_rational_response
 contains
 
   !> Takes a sample; one at a frequency that has one already is left out.
-  pure subroutine add(self, frequency, value, slope)
+  pure subroutine add(self, frequency, value, slope, growth)
     class(rational_response_type), intent(inout) :: self !! gets it
-    real(wp), intent(in) :: frequency      !! omega [rad/s]
+    real(wp), intent(in) :: frequency      !! omega, positive beside a growth [rad/s]
     complex(wp), intent(in) :: value(:, :) !! (force, motion) Z at i omega [SI]
     complex(wp), intent(in) :: slope(:, :) !! dZ/ds there [SI]
+    !> delta of a sample at the rate delta + i omega [1/s]; default: 0
+    real(wp), intent(in), optional :: growth
     integer :: n, k
 
     n = size(value, 1)
     if (.not. allocated(self%frequency)) then
-      allocate (self%frequency(0), self%value(n, n, 0), self%slope(n, n, 0))
+      allocate (self%frequency(0), self%growth(0), self%value(n, n, 0), self%slope(n, n, 0))
       self%scale = [(1.0_wp/sqrt(max(tiny(1.0_wp), abs(value(k, k)))), k=1, n)]
     end if
-    if (self%has(frequency)) return
+    if (present(growth)) then
+      self%growth = [self%growth, growth]
+    else
+      if (self%has(frequency)) return
+      self%growth = [self%growth, 0.0_wp]
+    end if
     self%frequency = [self%frequency, frequency]
     self%value = reshape([self%value, value], [n, n, size(self%frequency)])
     self%slope = reshape([self%slope, slope], [n, n, size(self%frequency)])
@@ -112,8 +120,15 @@ contains
     real(wp), intent(in) :: frequency !! [rad/s]
     logical :: has
     has = .false.
-    if (allocated(self%frequency)) has = any(abs(self%frequency - frequency) <= 0.0_wp)
+    if (allocated(self%frequency)) has = sample_at(self, frequency) > 0
   end function has
+
+  !> Number of the sample of a vibration, 0 where there is none.
+  pure integer function sample_at(self, frequency) result(number)
+    class(rational_response_type), intent(in) :: self !! with samples
+    real(wp), intent(in) :: frequency !! [rad/s]
+    number = findloc(abs(self%frequency - frequency) + abs(self%growth) <= 0.0_wp, .true., 1)
+  end function sample_at
 
   !> Whether the function goes through all samples; those of more than can be fitted stand for
   !> themselves alone.
@@ -131,11 +146,37 @@ contains
     complex(wp) :: value(size(self%scale), size(self%scale)) !! (force, motion) Z [SI]
 
     if (self%has(frequency)) then
-      value = self%value(:, :, findloc(abs(self%frequency - frequency) <= 0.0_wp, .true., 1))
+      value = self%value(:, :, sample_at(self, frequency))
     else
       value = scaled(value_of(self%fit, frequency), 1.0_wp/self%scale)
     end if
   end function at
+
+  !> The response of a motion \( e^{st} \) at a complex rate, and its derivative, as the function
+  !> has them; both huge at a pole.
+  pure subroutine beside(self, rate, value, slope)
+    class(rational_response_type), intent(in) :: self !! with samples that fit
+    complex(wp), intent(in) :: rate          !! s [1/s]
+    complex(wp), intent(out) :: value(:, :)  !! (force, motion) Z [SI]
+    complex(wp), intent(out) :: slope(:, :)  !! dZ/ds [SI]
+    complex(wp), allocatable :: matrix(:, :), motion(:, :), rise(:, :)
+    integer :: pivots(size(self%fit%value, 1)), info, n
+
+    n = size(pivots)
+    matrix = self%fit%value - rate/self%fit%unit*self%fit%slope
+    motion = self%fit%right
+    call zgesv(n, size(motion, 2), matrix, n, pivots, motion, n, info)
+    if (info == 0) then
+      matrix = self%fit%value - rate/self%fit%unit*self%fit%slope
+      rise = matmul(self%fit%slope, motion)/self%fit%unit
+      call zgesv(n, size(rise, 2), matrix, n, pivots, rise, n, info)
+      value = scaled(matmul(self%fit%left, motion), 1.0_wp/self%scale)
+      slope = scaled(matmul(self%fit%left, rise), 1.0_wp/self%scale)
+    end if
+    if (info == 0) return
+    value = huge(1.0_wp)
+    slope = huge(1.0_wp)
+  end subroutine beside
 
   !> How far the function has moved at a frequency by the last sample: the error that it had,
   !> relative to the largest entry of like coordinates.
@@ -222,7 +263,7 @@ contains
 
     n = size(self%scale)
     unit = max(tiny(1.0_wp), maxval(self%frequency))
-    rate = cmplx(0.0_wp, self%frequency/unit, wp)
+    rate = cmplx(self%growth/unit, self%frequency/unit, wp)
     value = self%value
     slope = self%slope*unit
     if (self%is_real) then

@@ -21,7 +21,7 @@ module gfb_frequency_response
   use gfb_dynamic_response, only: dynamic_response_type, find_sample, take_over_counts
   implicit none (type, external)
   private
-  public :: cover_frequencies, cover_part, add_sample, coefficients_at, join_frequencies, places_to_look, miss_of_line
+  public :: cover_frequencies, cover_part, add_sample, coefficients_at, coefficients_beside, join_frequencies, places_to_look, miss_of_line
 
   !> of what the last sample moves, relative to the largest entry at a frequency [1]
   real(wp), parameter :: function_tolerance = 3.0e-7_wp
@@ -101,17 +101,21 @@ contains
   end subroutine cover_part
 
   !> Takes a sample of a part at a frequency.
-  subroutine add_sample(bearing, response, number, frequency, model, found)
+  subroutine add_sample(bearing, response, number, frequency, model, found, growth)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
     integer, intent(in) :: number !! of the part
     real(wp), intent(in) :: frequency !! [rad/s]
     type(frequency_response_type), intent(inout) :: model !! gets the sample
     logical, intent(out) :: found !! else nothing is solved at `failed`
+    real(wp), intent(in), optional :: growth !! delta of a sample at the rate delta + i omega [1/s]; default: 0
     complex(wp), dimension(size(response%part(number)%coordinate), size(response%part(number)%coordinate)) :: value, slope
+    complex(wp) :: rate
 
-    call find_sample(bearing, response, number, cmplx(0.0_wp, frequency, wp), value, slope, found)
-    if (found) call model%part(number)%add(frequency, value, slope)
+    rate = cmplx(0.0_wp, frequency, wp)
+    if (present(growth)) rate = rate + growth
+    call find_sample(bearing, response, number, rate, value, slope, found)
+    if (found) call model%part(number)%add(frequency, value, slope, growth)
     if (.not. found) model%failed = frequency
   end subroutine add_sample
 
@@ -131,6 +135,30 @@ contains
     end do
     if (allocated(response%opposite)) coefficient = coefficient + coefficients_at(response%opposite, model%opposite, frequency)
   end function coefficients_at
+
+  !> Z of motions \( e^{\lambda t} \) as the function has it beside the frequencies that were covered, and its derivative.
+  pure recursive subroutine coefficients_beside(response, model, rate, coefficient, slope)
+    type(dynamic_response_type), intent(in) :: response !! whose motions they are
+    type(frequency_response_type), intent(in) :: model  !! of it
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), intent(out) :: coefficient(:, :), slope(:, :) !! (force, motion), 0 by symmetry [SI]
+    complex(wp), dimension(size(coefficient, 1), size(coefficient, 1)) :: other, other_slope
+    integer :: i
+
+    coefficient = 0.0_wp
+    slope = 0.0_wp
+    do i = 1, size(response%part)
+      associate (k => response%part(i)%coordinate)
+        call model%part(i)%beside(rate, other(:size(k), :size(k)), other_slope(:size(k), :size(k)))
+        coefficient(k, k) = other(:size(k), :size(k))
+        slope(k, k) = other_slope(:size(k), :size(k))
+      end associate
+    end do
+    if (.not. allocated(response%opposite)) return
+    call coefficients_beside(response%opposite, model%opposite, rate, other, other_slope)
+    coefficient = coefficient + other
+    slope = slope + other_slope
+  end subroutine coefficients_beside
 
   !> Whether a function of the frequency goes through the samples, of all motions.
   pure recursive function is_function(model) result(is)

@@ -113,13 +113,14 @@ contains
   end subroutine find_stiffness
 
   !> From bearings that are solved somewhere, each with its journal held, to the equilibrium of the machine.
-  subroutine find_machine_equilibrium(machine, bearing, motion, log, answer)
+  subroutine find_machine_equilibrium(machine, bearing, motion, log, answer, stiffness)
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:) !! one a journal
     real(wp), intent(in) :: motion(:) !! a, to begin with [m], [rad]
     type(run_log_type), intent(in) :: log !! where lines go
     type(machine_equilibrium_type), intent(out) :: answer
-    real(wp), allocatable :: stiffness(:, :), step(:), left(:), before(:), size_of(:), of_force(:)
+    real(wp), allocatable, intent(inout) :: stiffness(:, :) !! Z to begin with, from an equilibrium nearby, where there is one; the last one [SI]
+    real(wp), allocatable :: step(:), left(:), before(:), size_of(:), of_force(:)
     real(wp) :: share, norm, norm_before
     logical :: regular, done
 
@@ -134,7 +135,7 @@ contains
     call set_sizes(machine, bearing, size_of, of_force)
     call move_all(machine, bearing, motion, answer, regular)
     if (.not. regular) return
-    call linearise_all(machine, bearing, stiffness, answer)
+    if (.not. allocated(stiffness)) call linearise_all(machine, bearing, stiffness, answer)
     if (answer%reason /= '') return
     left = imbalance_of(answer)
     norm = norm2(left/of_force)

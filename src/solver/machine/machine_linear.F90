@@ -13,10 +13,10 @@ module gfb_machine_linear
   use gfb_bearing_system, only: bearing_system_type
   use gfb_vibration_law, only: vibration_type
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
-  use gfb_frequency_response, only: frequency_response_type
+  use gfb_frequency_response, only: frequency_response_type, coefficients_beside
   implicit none (type)
   private
-  public :: linearise_bearing, drop_linear_bearing, machine_matrix
+  public :: linearise_bearing, drop_linear_bearing, machine_matrix, machine_slope, add_bearing, journal_motion
 
   !> A bearing about its equilibrium.
   type, public :: linear_bearing_type
@@ -47,22 +47,64 @@ contains
   !> The whole machine at a rate.
   subroutine machine_matrix(machine, linear, rate, matrix, found)
     type(machine_type), intent(in) :: machine
-    type(linear_bearing_type), intent(inout) :: linear(:)
+    type(linear_bearing_type), intent(inout) :: linear(:) !! keep the factors of this rate
     complex(wp), intent(in) :: rate !! lambda [1/s]
     complex(wp), allocatable, intent(out) :: matrix(:, :)
     logical, intent(out) :: found !! all bearings could be factorized
     complex(wp) :: coefficient(motions, motions)
-    integer :: i, n
+    integer :: i
 
     matrix = machine%equations%dynamic_stiffness(rate, machine%speed)
-    n = machine%count
     found = .true.
     do i = 1, size(linear)
-      call find_coefficients(linear(i)%bearing, linear(i)%response, rate, coefficient, found, only_translations=n < motions)
+      call find_coefficients(linear(i)%bearing, linear(i)%response, rate, coefficient, found, only_translations=machine%count < motions)
       if (.not. found) return
-      associate (place => machine%journal(i)%place(:n), sign => machine%journal(i)%sign(:n))
-        matrix(place, place) = matrix(place, place) + coefficient(:n, :n)*spread(sign, 1, n)*spread(sign, 2, n)
-      end associate
+      call add_bearing(machine, i, coefficient, matrix)
     end do
   end subroutine machine_matrix
+
+  !> Adds what a bearing's coefficients, or a derivative of them, are among the motions of the shaft.
+  pure subroutine add_bearing(machine, number, coefficient, matrix)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the bearing
+    complex(wp), intent(in) :: coefficient(:, :) !! Z of its journal's motions [SI]
+    complex(wp), intent(inout) :: matrix(:, :) !! (motion, motion) of the shaft [SI]
+
+    associate (n => machine%count)
+      associate (place => machine%journal(number)%place(:n), sign => machine%journal(number)%sign(:n))
+        matrix(place, place) = matrix(place, place) + coefficient(:n, :n)*spread(sign, 1, n)*spread(sign, 2, n)
+      end associate
+    end associate
+  end subroutine add_bearing
+
+  !> How the machine's matrix follows the rate, the bearings' part of it by the function through their samples.
+  subroutine machine_slope(machine, linear, rate, slope)
+    type(machine_type), intent(in) :: machine
+    type(linear_bearing_type), intent(in) :: linear(:) !! with samples
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), allocatable, intent(out) :: slope(:, :) !! its derivative by lambda
+    complex(wp) :: coefficient(motions, motions), by_rate(motions, motions)
+    integer :: i
+
+    associate (equations => machine%equations)
+      slope = 2.0_wp*rate*equations%mass + (machine%speed*equations%gyroscopic + equations%damping)
+    end associate
+    do i = 1, size(linear)
+      call coefficients_beside(linear(i)%response, linear(i)%model, rate, coefficient, by_rate)
+      call add_bearing(machine, i, by_rate, slope)
+    end do
+  end subroutine machine_slope
+
+  !> Motions of a journal.
+  pure function journal_motion(machine, number, motion) result(own)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the journal
+    complex(wp), intent(in) :: motion(:) !! of the shaft [m], [1]
+    complex(wp) :: own(motions) !! x, y, and its rotations, 0 where its film does not feel them [m], [rad]
+
+    own = 0.0_wp
+    associate (n => machine%count, journal => machine%journal(number))
+      own(:n) = journal%sign(:n)*motion(journal%place(:n))
+    end associate
+  end function journal_motion
 end module gfb_machine_linear

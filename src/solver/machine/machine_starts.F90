@@ -15,8 +15,8 @@ module gfb_machine_starts
   private
   public :: find_starts
 
-  real(wp), parameter :: most_damped = 0.9_wp   !! damping ratio of a mode that is looked for [1]
-  real(wp), parameter :: lowest = 0.02_wp       !! frequency of one over the highest [1]
+  real(wp), parameter :: farthest = 3.0_wp       !! rates that are kept, over the highest frequency [1]
+  real(wp), parameter :: no_frequency = 1.0e-7_wp !! of a rate that is real, over the highest frequency [1]
 
   interface
     !> LAPACK: eigenvalues of a general complex pair.
@@ -37,11 +37,12 @@ module gfb_machine_starts
     complex(wp) :: rate = 0.0_wp !! growth + i frequency [1/s]
     complex(wp), allocatable :: shape(:) !! of the shaft, the largest displacement 1
     logical :: sharp = .false.   !! solved for with the coefficients at its own rate
+    real(wp), allocatable :: share(:) !! of each bearing's film and foil in its energy [1]
   end type machine_mode_type
 
 contains
 
-  !> Eigenvalues of shaft and rational functions, those that may be modes.
+  !> Eigenvalues of shaft and rational functions, one of each pair, where the function may still be right.
   subroutine find_starts(machine, linear, highest, start, reason)
     type(machine_type), intent(in) :: machine
     type(linear_bearing_type), intent(in) :: linear(:)
@@ -64,8 +65,8 @@ contains
     do k = 1, n
       if (.not. abs(denominator(k)) > 1.0e-12_wp*abs(numerator(k))) cycle
       rate = highest*numerator(k)/denominator(k)
-      if (aimag(rate) < lowest*highest .or. aimag(rate) > 1.01_wp*highest .or. &
-          abs(real(rate)) > most_damped*abs(rate)) cycle
+      if (abs(aimag(rate)) < no_frequency*highest) rate = real(rate, wp)
+      if (aimag(rate) < 0.0_wp .or. abs(rate) > farthest*highest) cycle
       start = [start, machine_mode_type(rate, matmul(basis, vector(:m, k)))]
     end do
   end subroutine find_starts

@@ -17,7 +17,7 @@ module gfb_rotor_determinant
   use gfb_counted_function, only: counted_function_type
   implicit none (type, external)
   private
-  public :: find_determinant, film_determinant, solve_mode, safe_log
+  public :: find_determinant, film_determinant, solve_mode
 
   real(wp), parameter, public :: first_move = 1.0e-5_wp !! of the secant method, over the rate [1]
   real(wp), parameter :: tolerance = 1.0e-11_wp !! of a rate [1]

@@ -41,22 +41,24 @@ module gfb_machine_motions
 contains
 
   !> All modes up to the highest frequency asked for, and the response to unbalance.
-  subroutine find_motions(scene, machine, linear, log, motions)
+  subroutine find_motions(scene, machine, linear, log, counted, motions)
     type(scene_type), intent(in) :: scene !! of the machine
     type(machine_type), intent(in) :: machine
     type(linear_bearing_type), intent(inout) :: linear(:) !! its bearings about their answers
     type(run_log_type), intent(in) :: log !! where lines go
+    integer, intent(inout) :: counted !! modes that there were when they were counted last, or `not_counted`
     type(machine_motions_type), intent(out) :: motions
+    complex(wp), allocatable :: of_film(:, :)
     character(len=:), allocatable :: reason
     real(wp) :: highest
     logical :: found
 
     highest = scene%dynamics%largest_frequency
     if (.not. highest > 0.0_wp) highest = usual_highest*machine%speed
-    call find_machine_modes(machine, linear, highest, log, motions%mode, reason)
+    call find_machine_modes(machine, linear, highest, log, motions%mode, reason, counted)
     if (reason /= '') call log%warning(reason)
     if (size(scene%unbalance%position) == 0) return
-    call find_machine_response(machine, linear, unbalance_force(machine, scene), motions%response, found)
+    call find_machine_response(machine, linear, unbalance_force(machine, scene), motions%response, of_film, found)
     if (found) return
     deallocate (motions%response)
     call log%warning('the response to unbalance was not found: a bearing cannot be solved at the frequency of the speed')
@@ -148,27 +150,33 @@ contains
     type(machine_motions_type), intent(in) :: motions(:)
     logical, intent(in) :: sweeps
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    real(wp), allocatable :: table(:, :, :), shape(:, :)
+    real(wp), allocatable :: table(:, :, :), shape(:, :), share(:, :, :)
+    integer, allocatable :: node(:)
     real(wp) :: of_mode(size(names))
-    integer :: i, k, most
+    integer :: i, k, most, bearings
 
+    bearings = size(machine%journal)
     most = merge(1, 0, sweeps)
     do k = 1, size(motions)
       most = max(most, size(motions(k)%mode))
     end do
     allocate (table(most, size(motions), size(names)), source=ieee_value(1.0_wp, ieee_quiet_nan))
+    allocate (share(most, size(motions), 0:bearings), source=ieee_value(1.0_wp, ieee_quiet_nan))
     do k = 1, size(motions)
       do i = 1, size(motions(k)%mode)
-        associate (rate => motions(k)%mode(i)%rate)
-          of_mode = [aimag(rate), real(rate, wp), -real(rate, wp)/abs(rate), -turn*real(rate, wp)/aimag(rate), &
-                     sense_of(motions(k)%mode(i)%shape)]
+        associate (mode => motions(k)%mode(i), rate => motions(k)%mode(i)%rate)
+          of_mode = [aimag(rate), real(rate, wp), -real(rate, wp)/abs(rate), -turn*real(rate, wp)/aimag(rate), sense_of(mode%shape)]
+          share(i, k, :) = [1.0_wp - sum(mode%share), mode%share]
         end associate
         table(i, k, :) = of_mode
       end do
     end do
     do i = 1, size(names)
-      if (sweeps) call add_array(arrays, '/dynamics/'//trim(names(i)), trim(units(i)), trim(meanings(i)), table(:, :, i), .true.)
-      if (.not. sweeps) call add_array(arrays, '/dynamics/'//trim(names(i)), trim(units(i)), trim(meanings(i)), transpose(table(:, :, i)))
+      call add_rows(trim(names(i)), trim(units(i)), trim(meanings(i)), table(:, :, i))
+    end do
+    call add_rows('mode_shaft_share', '1', 'share of the shaft in the energy of each mode', share(:, :, 0))
+    do i = 1, bearings
+      call add_rows('mode_share_'//text(i), '1', 'share of film and foil of bearing '//text(i)//' in the energy of each mode', share(:, :, i))
     end do
     associate (last => motions(size(motions)))
       if (size(last%mode) == 0) return
@@ -176,6 +184,23 @@ contains
     end associate
     call add_array(arrays, '/dynamics/mode_shape', 'mixed SI', 'of each mode, of a sweep at its last point: real and imaginary part '// &
                    'of x, y [m], rotation about x and y [rad], node by node of /shaft/line', shape)
+    node = shown_nodes(machine)
+    associate (last => motions(size(motions)))
+      shape = reshape([((sense_at(last%mode(i)%shape, node(k)), k=1, size(node)), i=1, size(last%mode))], [size(node), size(last%mode)])
+    end associate
+    call add_array(arrays, '/dynamics/mode_station_sense', '1', 'of each mode, of a sweep at its last point, at bearings, discs, '// &
+                   'stations: 1: a circle with the speed, -1: against it', shape)
+
+  contains
+
+    !> A value a mode; of a sweep a row a point.
+    subroutine add_rows(name, unit, meaning, values)
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(in) :: values(:, :) !! (mode, point), in that unit [SI]
+
+      if (sweeps) call add_array(arrays, '/dynamics/'//name, unit, meaning, values, .true.)
+      if (.not. sweeps) call add_array(arrays, '/dynamics/'//name, unit, meaning, transpose(values))
+    end subroutine add_rows
   end subroutine add_modes
 
   !> Text at the right of a column.
@@ -190,12 +215,26 @@ contains
   !> How a motion goes round where it is largest.
   pure real(wp) function sense_of(motion) result(sense)
     complex(wp), intent(in) :: motion(:) !! of the shaft
-    integer :: k, n
+    integer :: n
 
     n = size(motion)/2
-    k = maxloc(abs(motion(1:n:2))**2 + abs(motion(n + 1::2))**2, 1)
-    sense = whirl_sense([motion(2*k - 1), motion(n + 2*k - 1)])
+    sense = sense_at(motion, maxloc(abs(motion(1:n:2))**2 + abs(motion(n + 1::2))**2, 1))
   end function sense_of
+
+  !> How it goes round at a node.
+  pure real(wp) function sense_at(motion, node) result(sense)
+    complex(wp), intent(in) :: motion(:) !! of the shaft
+    integer, intent(in) :: node
+    sense = whirl_sense([motion(2*node - 1), motion(size(motion)/2 + 2*node - 1)])
+  end function sense_at
+
+  !> Nodes whose motions are written: bearings, discs and stations.
+  pure function shown_nodes(machine) result(node)
+    type(machine_type), intent(in) :: machine
+    integer, allocatable :: node(:)
+    integer :: i
+    node = [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), machine%station]
+  end function shown_nodes
 
   !> A motion of the shaft, node by node: real and imaginary parts of x, y, theta_x, theta_y.
   pure function by_nodes(machine, motion) result(values)
@@ -223,7 +262,7 @@ contains
     integer :: i, n
 
     n = 2*size(machine%shaft%z)
-    node = [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), machine%station]
+    node = shown_nodes(machine)
     allocate (table(5, size(node)))
     do i = 1, size(node)
       associate (x => response(2*node(i) - 1), y => response(n + 2*node(i) - 1))

@@ -21,8 +21,10 @@ module gfb_machine_study
   use gfb_shaft, only: body_type
   use gfb_held_shaft, only: held_shaft_type, free_motions
   use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads
+  use gfb_machine_path, only: machine_path_type
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
+  use gfb_machine_modes, only: not_counted
   use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
   use gfb_machine_results, only: add_body, add_shaft_line, add_bearing, history_row
   use gfb_root_bracket, only: root_bracket_type
@@ -60,9 +62,12 @@ module gfb_machine_study
     type(part_type), allocatable :: part(:)
     type(machine_bearing_type), allocatable :: bearing(:) !! of the parts' solutions
     type(machine_equilibrium_type) :: answer
+    type(machine_path_type) :: path !! of answers over the speed
+    real(wp), allocatable :: stiffness(:, :) !! of the films at the last one [SI]
     type(machine_motions_type), allocatable :: motions(:) !! small ones about each answer
     type(history_row_type), allocatable :: history(:)     !! of a sweep
     real(wp) :: onset = 0.0_wp !! speed from which on it whirls; 0: none was found [rpm]
+    integer :: counted = not_counted !! modes, when they were counted last
     type(error_type), allocatable :: refused !! what is wrong with the files of the bearings
   contains
     procedure :: prepare => prepare_machine, check => check_machine, solve => solve_machine
@@ -268,8 +273,15 @@ contains
     real(wp), allocatable :: from(:)
 
     from = self%answer%motion
-    call find_machine_equilibrium(self%machine, self%bearing, from, log, self%answer)
+    if (allocated(self%path%speed)) then
+      call find_machine_equilibrium(self%machine, self%bearing, self%path%at(self%machine%speed), log, self%answer, self%stiffness)
+    end if
+    if (.not. self%answer%converged) then
+      if (allocated(self%stiffness)) deallocate (self%stiffness)
+      call find_machine_equilibrium(self%machine, self%bearing, from, log, self%answer, self%stiffness)
+    end if
     if (self%answer%converged) then
+      call self%path%add(self%machine%speed, self%answer%motion)
       if (scene%general%asked%takes('dynamics')) call find_linear(self, scene, log, motions)
       return
     end if
@@ -357,7 +369,7 @@ contains
     do i = 1, size(linear)
       call linearise_bearing(self%bearing(i)%bearing, vibration_of(self%part(i)%scene), log, linear(i))
     end do
-    call find_motions(scene, self%machine, linear, log, motions)
+    call find_motions(scene, self%machine, linear, log, self%counted, motions)
     do i = 1, size(linear)
       self%factorizations = self%factorizations + linear(i)%response%factorizations
       call drop_linear_bearing(linear(i))
