@@ -12,15 +12,21 @@ module gfb_machine_response
   private
   public :: find_machine_response
 
+  !> Motions \( q e^{i \Omega t} \).
+  type, public :: machine_response_type
+    real(wp) :: speed = 0.0_wp !! [rad/s]
+    complex(wp), allocatable :: motion(:)   !! of the shaft [m], [1]
+    complex(wp), allocatable :: force(:, :) !! (x, y, about x, about y; bearing) of films on the shaft [N], [N m]
+  end type machine_response_type
+
 contains
 
   !> Motions \( q e^{i \Omega t} \) of the shaft by forces that turn with it, and forces of the films on it.
-  subroutine find_machine_response(machine, linear, force, motion, of_film, found)
+  subroutine find_machine_response(machine, linear, force, response, found)
     type(machine_type), intent(in) :: machine
     type(linear_bearing_type), intent(inout) :: linear(:)
     complex(wp), intent(in) :: force(:) !! at t = 0 [N], [N m]
-    complex(wp), allocatable, intent(out) :: motion(:) !! of the shaft [m], [1]
-    complex(wp), allocatable, intent(out) :: of_film(:, :) !! (x, y, about x, about y; bearing) on the shaft [N], [N m]
+    type(machine_response_type), intent(out) :: response
     logical, intent(out) :: found
     complex(wp), allocatable :: matrix(:, :)
     complex(wp) :: coefficient(motions, motions, size(linear)), rate
@@ -33,12 +39,13 @@ contains
       if (.not. found) return
       call add_bearing(machine, i, coefficient(:, :, i), matrix)
     end do
-    motion = force
-    call solve_general(matrix, motion, found)
+    response%speed = machine%speed
+    response%motion = force
+    call solve_general(matrix, response%motion, found)
     if (.not. found) return
-    allocate (of_film(motions, size(linear)))
+    allocate (response%force(motions, size(linear)))
     do i = 1, size(linear)
-      of_film(:, i) = -matmul(coefficient(:, :, i), journal_motion(machine, i, motion))
+      response%force(:, i) = -matmul(coefficient(:, :, i), journal_motion(machine, i, response%motion))
     end do
   end subroutine find_machine_response
 

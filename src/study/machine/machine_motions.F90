@@ -4,18 +4,19 @@ module gfb_machine_motions
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_units, only: degrees, turn, micrometres
+  use gfb_units, only: turn
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
   use gfb_case_file, only: case_array_type, add_array
-  use gfb_shaft, only: shaft_motions => motions, node_at, journal_places
+  use gfb_shaft, only: shaft_motions => motions, journal_places
   use gfb_machine, only: machine_type
   use gfb_machine_linear, only: linear_bearing_type
   use gfb_machine_starts, only: machine_mode_type
   use gfb_machine_modes, only: find_machine_modes
-  use gfb_machine_response, only: find_machine_response
+  use gfb_machine_response, only: machine_response_type, find_machine_response
+  use gfb_unbalance_results, only: unbalance_force, shown_nodes, show_response, add_responses
   use gfb_rotor, only: whirl_sense
   implicit none (type)
   private
@@ -35,7 +36,7 @@ module gfb_machine_motions
   !> Small motions about an equilibrium.
   type, public :: machine_motions_type
     type(machine_mode_type), allocatable :: mode(:) !! growth falling; not allocated: not asked for
-    complex(wp), allocatable :: response(:)         !! of the shaft to its unbalance, where it has one [m], [1]
+    type(machine_response_type), allocatable :: response !! to unbalance, where there is one
   end type machine_motions_type
 
 contains
@@ -48,7 +49,6 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     integer, intent(inout) :: counted !! modes that there were when they were counted last, or `not_counted`
     type(machine_motions_type), intent(out) :: motions
-    complex(wp), allocatable :: of_film(:, :)
     character(len=:), allocatable :: reason
     real(wp) :: highest
     logical :: found
@@ -58,29 +58,12 @@ contains
     call find_machine_modes(machine, linear, highest, log, motions%mode, reason, counted)
     if (reason /= '') call log%warning(reason)
     if (size(scene%unbalance%position) == 0) return
-    call find_machine_response(machine, linear, unbalance_force(machine, scene), motions%response, of_film, found)
+    allocate (motions%response)
+    call find_machine_response(machine, linear, unbalance_force(machine, scene), motions%response, found)
     if (found) return
     deallocate (motions%response)
     call log%warning('the response to unbalance was not found: a bearing cannot be solved at the frequency of the speed')
   end subroutine find_motions
-
-  !> Forces of the unbalance, \( u \Omega^2 e^{i \alpha} \) along x, a quarter turn later along y.
-  function unbalance_force(machine, scene) result(force)
-    type(machine_type), intent(in) :: machine
-    type(scene_type), intent(in) :: scene
-    complex(wp), allocatable :: force(:) !! [N], [N m]
-    complex(wp) :: one
-    integer :: i, n, place
-
-    n = 2*size(machine%shaft%z)
-    allocate (force(2*n), source=(0.0_wp, 0.0_wp))
-    do i = 1, size(scene%unbalance%position)
-      place = 2*node_at(machine%shaft, scene%unbalance%position(i)) - 1
-      one = scene%unbalance%value(i)*machine%speed**2*exp(cmplx(0.0_wp, scene%unbalance%angles(i), wp))
-      force(place) = force(place) + one
-      force(n + place) = force(n + place) - cmplx(0.0_wp, 1.0_wp, wp)*one
-    end do
-  end function unbalance_force
 
   !> Growth of the mode that grows most or dies out last; not a number where there is none [1/s].
   pure real(wp) function growth_of(motions) result(growth)
@@ -106,6 +89,7 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(quantity_type), allocatable, intent(inout) :: summary(:) !! gets growth and frequency of the least damped mode
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
+    integer :: k
 
     associate (last => motions(size(motions)))
       if (allocated(last%mode)) then
@@ -117,8 +101,8 @@ contains
         call add_modes(machine, motions, sweeps, arrays)
       end if
       if (allocated(last%response)) then
-        call show_response(machine, last%response, log)
-        call add_responses(machine, motions, sweeps, arrays)
+        call show_response(machine, last%response%motion, log)
+        call add_responses(machine, [(motions(k)%response, k=1, size(motions))], sweeps, arrays)
       end if
     end associate
   end subroutine add_motions
@@ -228,14 +212,6 @@ contains
     sense = whirl_sense([motion(2*node - 1), motion(size(motion)/2 + 2*node - 1)])
   end function sense_at
 
-  !> Nodes whose motions are written: bearings, discs and stations.
-  pure function shown_nodes(machine) result(node)
-    type(machine_type), intent(in) :: machine
-    integer, allocatable :: node(:)
-    integer :: i
-    node = [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), machine%station]
-  end function shown_nodes
-
   !> A motion of the shaft, node by node: real and imaginary parts of x, y, theta_x, theta_y.
   pure function by_nodes(machine, motion) result(values)
     type(machine_type), intent(in) :: machine
@@ -253,60 +229,4 @@ contains
     end do
   end function by_nodes
 
-  !> How unbalance moves the shaft: z, amplitude and phase of x, of y, at bearings, discs and stations.
-  function response_table(machine, response) result(table)
-    type(machine_type), intent(in) :: machine
-    complex(wp), intent(in) :: response(:) !! [m], [1]
-    real(wp), allocatable :: table(:, :)
-    integer, allocatable :: node(:)
-    integer :: i, n
-
-    n = 2*size(machine%shaft%z)
-    node = shown_nodes(machine)
-    allocate (table(5, size(node)))
-    do i = 1, size(node)
-      associate (x => response(2*node(i) - 1), y => response(n + 2*node(i) - 1))
-        table(:, i) = [machine%shaft%z(node(i)), abs(x), phase_of(x), abs(y), phase_of(y)]
-      end associate
-    end do
-  end function response_table
-
-  !> The same as lines of the log.
-  subroutine show_response(machine, response, log)
-    type(machine_type), intent(in) :: machine
-    complex(wp), intent(in) :: response(:) !! [m], [1]
-    type(run_log_type), intent(in) :: log
-    real(wp), allocatable :: table(:, :)
-    integer :: i
-
-    table = response_table(machine, response)
-    do i = 1, size(table, 2)
-      call log%line('response         at '//text(table(1, i)*1.0e3_wp, 4)//' mm: '//text(table(2, i)*micrometres, 4)//' x '// &
-                    text(table(4, i)*micrometres, 4)//' um, phase '//text(table(3, i)*degrees, 4)//', '// &
-                    text(table(5, i)*degrees, 4)//' deg')
-    end do
-  end subroutine show_response
-
-  !> The response as an array: a row a place; of a sweep a row a point, place after place.
-  subroutine add_responses(machine, motions, sweeps, arrays)
-    type(machine_type), intent(in) :: machine
-    type(machine_motions_type), intent(in) :: motions(:)
-    logical, intent(in) :: sweeps
-    type(case_array_type), allocatable, intent(inout) :: arrays(:)
-    character(len=*), parameter :: path = '/dynamics/response', words = 'unbalance response of bearings, discs, stations: z [m], '// &
-                                   'amplitude [m] and phase [rad] of x, of y; x = amplitude cos(speed t + phase)'
-    real(wp), allocatable :: table(:, :)
-    integer :: k
-
-    table = response_table(machine, motions(1)%response)
-    if (sweeps) table = reshape([(response_table(machine, motions(k)%response), k=1, size(motions))], [size(table), size(motions)])
-    if (sweeps) call add_array(arrays, path, 'mixed SI', words, table, .true.)
-    if (.not. sweeps) call add_array(arrays, path, 'mixed SI', words, table)
-  end subroutine add_responses
-
-  !> Angle of a complex number [rad].
-  elemental real(wp) function phase_of(number) result(phase)
-    complex(wp), intent(in) :: number
-    phase = atan2(aimag(number), real(number, wp))
-  end function phase_of
 end module gfb_machine_motions
