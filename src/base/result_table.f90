@@ -606,7 +606,15 @@ module gfb_result_table
     result_type('torque_<a>_<n>', 'N m', number, machine, &
       'torque of the film of bearing n on the shaft about <a>'), &
     result_type('maximum_pressure_<n>', 'Pa', number, machine, 'largest pressure of bearing n'), &
-    result_type('power_loss_<n>', 'W', number, machine, 'of bearing n')]
+    result_type('power_loss_<n>', 'W', number, machine, 'of bearing n'), &
+    result_type('critical_speed_<n>', 'rpm', number, machine, &
+      'speed at which the response to unbalance is largest, the n-th one up', &
+      'with `&unbalance` at three speeds or more: speed at which the response to it is '// &
+      'largest, where it is largest; the n-th one up'), &
+    result_type('amplification_factor_<n>', '1', number, machine, &
+      'critical_speed_<n> over the speeds between which the response there is above 0.707 of it', &
+      'of `critical_speed_<n>`: that over the width between the speeds at which the response '// &
+      'has 0.707 of it, as API 617 has it; absent where one of them is beyond the speeds')]
 
   type(result_type), parameter :: ensembles(*) = [ &
     result_type('member', '', word, ensemble, 'name of the case file', &

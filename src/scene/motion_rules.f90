@@ -31,6 +31,9 @@ contains
 
     associate (asked => scene%dynamics, model => scene%model, sweep => scene%sweep)
       call check_derived_whirl(keys, scene)
+      call keys%rule(group, 'response_speeds', keys%meant(group, 'response_speeds') .and. &
+                     size(scene%unbalance%position) == 0, &
+                     'needs &unbalance: what moves the machine')
       if (.not. asked%present) return
       frequencies = keys%meant(group, 'frequencies')
       ratios = keys%meant(group, 'frequency_ratios')

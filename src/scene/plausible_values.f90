@@ -94,7 +94,8 @@ module gfb_plausible_values
     range_type(1.0e2_wp, 1.0e8_wp, 'Pa', 'bar,kPa,MPa', 'gas%density_table_pressure'), &
     range_type(1.0e-3_wp, 2.0e3_wp, 'kg/m^3', 'g/cm^3,g/m^3', 'gas%density_table_density'), &
     range_type(100.0_wp, 2.0e6_wp, 'rpm', 'krpm', &
-               'operation%speed_rpm machine%speed_rpm transient%final_speed_rpm'), &
+               'operation%speed_rpm machine%speed_rpm transient%final_speed_rpm '// &
+               'dynamics%response_speeds'), &
     range_type(0.0_wp, 2.0e-3_wp, 'm', 'mm,um', &
                'operation%eccentricity operation%axial_eccentricity '// &
                'operation%leading_edge_lift operation%leading_edge_lift_edge'), &

@@ -61,10 +61,14 @@ def numbers(answer, names, bearings=2):
     return numpy.array([[answer[f"{name}_{i}"] for name in names] for i in range(1, bearings + 1)])
 
 
-def check_row(checks, folder, row):
-    """Statics, modes and response of a machine as two programs have them."""
+def check_row(checks, folder, row, all_speeds):
+    """Statics, modes and response of a machine as two programs have them; at the row's speed, or at all speeds."""
     name = f"{row['machine']}{'' if row.get('journal_tilts', True) else ', without tilts'}"
-    answer = solve(folder, "machine", machine_case(folder, row))
+    content = machine_case(folder, row)
+    speeds = sorted(one["speed_rpm"] for one in row["unbalance"]["rows"]) if all_speeds else [row["speed_rpm"]]
+    if all_speeds:
+        content["dynamics"]["response_speeds"] = speeds
+    answer = solve(folder, "machine", content)
     expected = numpy.array(row["eccentricity_and_tilt"]["A"])
     for columns, words in ((slice(0, 2), "eccentricity"), (slice(2, 4), "tilt")):
         size = numpy.abs(expected[:, columns]).max()
@@ -77,30 +81,31 @@ def check_row(checks, folder, row):
     checks.below(f"{name}: forces", numpy.abs(-force[:, :2] - load[:, :2]).max()/numpy.abs(load[:, :2]).max(), AGREE)
     with h5py.File(f"{answer.stem}.h5", "r") as file:
         rate = file["dynamics/mode_growth_rate"][...].ravel() + 1j*file["dynamics/mode_frequency"][...].ravel()
-        response = file["dynamics/response"][...]
+        response = file["dynamics/response"][...].reshape(len(speeds), -1, 5)
     for mode in row["modes"]:
         known = complex(*mode["A"])
         checks.below(f"{name}: mode {known:.5g} 1/s", numpy.abs(rate - known).min()/abs(known), max(AGREE, mode["agreement"]))
     for one in row["unbalance"]["rows"]:
-        if abs(one["speed_rpm"] - row["speed_rpm"]) > 0.0:
+        if one["speed_rpm"] not in speeds:
             continue
+        table = response[speeds.index(one["speed_rpm"])]
         for place, known in one["A"].items():
-            got = response[numpy.abs(response[:, 0] - float(place)).argmin()]
+            got = table[numpy.abs(table[:, 0] - float(place)).argmin()]
             for k, (amplitude, phase) in enumerate(known):
                 ours = got[1 + 2*k]*numpy.exp(1j*got[2 + 2*k])
                 theirs = amplitude*numpy.exp(1j*math.radians(phase))
-                checks.below(f"{name}: response at {place} m, {'xy'[k]}", abs(ours - theirs)/abs(theirs), max(AGREE, one["agreement"]))
+                checks.below(f"{name}: response at {one['speed_rpm']:g} rpm, {place} m, {'xy'[k]}", abs(ours - theirs)/abs(theirs), max(AGREE, one["agreement"]))
 
 
 def check_reference(checks, folder):
     """The machine with a disc off its middle."""
-    check_row(checks, folder, REFERENCE["linear"][0])
+    check_row(checks, folder, REFERENCE["linear"][0], False)
 
 
 def check_all_references(checks, folder):
-    """Journals that count as parallel, a slender shaft, a light hollow one that whirls."""
-    for row in REFERENCE["linear"][1:]:
-        check_row(checks, folder, row)
+    """All speeds of unbalance; journals that count as parallel, a slender shaft, a light hollow one that whirls."""
+    for row in REFERENCE["linear"]:
+        check_row(checks, folder, row, True)
 
 
 def check_onset(checks, folder):
@@ -121,6 +126,34 @@ def check_onset(checks, folder):
     there = solve(folder, "alone", alone)
     for name in ("growth_rate", "whirl_frequency", "eccentricity_x_1", "tilt_y_2"):
         checks.below(f"a sweep's last point: {name}", answer[name]/there[name] - 1.0, 1.0e-7)
+
+
+def check_critical(checks, folder):
+    """A critical speed is where the response itself is largest, its factor that of the speeds at which it has 0.707 of that."""
+    row = REFERENCE["linear"][0]
+    content = machine_case(folder, row, COARSE, 1)
+    content["dynamics"]["response_speeds"] = [9000.0, 6000.0, 7000.0, 8000.0]
+    answer = solve(folder, "critical", content)
+    critical, factor = answer["critical_speed_1"], answer["amplification_factor_1"]
+    checks.that("one critical speed", "critical_speed_2" not in answer.summary)
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        sides = file["dynamics/critical_speed"][0, 3:5]
+        checks.that("responses in the order of their speeds", list(file["dynamics/response_speed"][...].ravel().round(6)) == [6e3, 7e3, 8e3, 9e3])
+    checks.below("amplification factor", factor/(critical/(sides[1] - sides[0])) - 1.0, 1.0e-12)
+    content["dynamics"]["response_speeds"] = [sides[0], 0.998*critical, critical, 1.002*critical, sides[1]]
+    again = solve(folder, "again", content)
+    with h5py.File(f"{again.stem}.h5", "r") as file:
+        axes = file["dynamics/response_axes"][...].reshape(5, -1, 4)[:, 2, 1]
+    checks.that("the response is largest there", axes[2] > max(axes[1], axes[3]))
+    checks.below("half the power below", axes[0]/axes[2] - math.sqrt(0.5), 1.0e-5)
+    checks.below("half the power above", axes[4]/axes[2] - math.sqrt(0.5), 1.0e-5)
+    checks.below("critical speed of other speeds", again["critical_speed_1"]/critical - 1.0, 1.0e-5)
+    del content["dynamics"]["response_speeds"]
+    content["sweep"] = {"parameter": "speed_rpm", "values": (6500.0, 8000.0, 9000.0)}
+    checks.below("critical speed of a sweep", solve(folder, "swept", content)["critical_speed_1"]/critical - 1.0, 1.0e-5)
+    del content["sweep"], content["unbalance"]
+    content["dynamics"]["response_speeds"] = [6000.0]
+    checks.that("speeds without unbalance", "needs &unbalance" in solve(folder, "wrong", content, status=1).complaint)
 
 
 def coarse(folder):
@@ -238,7 +271,8 @@ def main():
     """Runs all checks."""
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in ((check_all_references, check_onset) if "--long" in sys.argv else (check_reference, check_invariants, check_wrong)):
+        for check in ((check_all_references, check_onset) if "--long" in sys.argv else
+                      (check_reference, check_critical, check_invariants, check_wrong)):
             check(checks, pathlib.Path(name))
     checks.close()
 

@@ -74,6 +74,7 @@ module gfb_motion_cases
     real(wp) :: loss_factor = 0.0_wp          !! eta of the foil's stiffness [1]
     real(wp), allocatable :: amplitudes(:)    !! of the shaft; contacts slide to and fro [m]
     real(wp) :: largest_frequency = 0.0_wp    !! of modes of a machine; 0: by its speed [rad/s]
+    real(wp), allocatable :: response_speeds(:) !! of unbalance of a machine, or none [rpm]
     logical :: stability = .true.             !! critical mass and modes too; not a key
   end type dynamics_case_type
 
@@ -296,6 +297,12 @@ contains
                        default='1.5 times the speed', &
                        useless=unless(analysis%is_machine, 'needs &shaft: one bearing has '// &
                        '`frequencies`'))
+    call keys%real_list_key('response_speeds', dynamics%response_speeds, longest_list, 'rpm', &
+                            'speeds at which a machine is asked how unbalance moves it; '// &
+                            'between them its critical speeds are looked for', positive, .false., &
+                            'those of the sweep', &
+                            useless=unless(analysis%is_machine, 'needs &shaft: one bearing has '// &
+                                           'orbits over the speed in &periodic'))
     dynamics%frequencies = frequencies_at(dynamics, angular_speed(operation%speed_rpm))
     call keys%real_key('interpolation_tolerance', dynamics%interpolation_tolerance, '1', &
                        'further frequencies are put between those given until straight lines '// &

@@ -16,7 +16,7 @@ module gfb_machine_motions
   use gfb_machine_starts, only: machine_mode_type
   use gfb_machine_modes, only: find_machine_modes
   use gfb_machine_response, only: machine_response_type, find_machine_response
-  use gfb_unbalance_results, only: unbalance_force, shown_nodes, show_response, add_responses
+  use gfb_unbalance_results, only: unbalance_force, shown_nodes
   use gfb_rotor, only: whirl_sense
   implicit none (type)
   private
@@ -41,7 +41,7 @@ module gfb_machine_motions
 
 contains
 
-  !> All modes up to the highest frequency asked for, and the response to unbalance.
+  !> All modes up to the highest frequency asked for, and the response to unbalance unless that has speeds of its own.
   subroutine find_motions(scene, machine, linear, log, counted, motions)
     type(scene_type), intent(in) :: scene !! of the machine
     type(machine_type), intent(in) :: machine
@@ -57,7 +57,7 @@ contains
     if (.not. highest > 0.0_wp) highest = usual_highest*machine%speed
     call find_machine_modes(machine, linear, highest, log, motions%mode, reason, counted)
     if (reason /= '') call log%warning(reason)
-    if (size(scene%unbalance%position) == 0) return
+    if (size(scene%unbalance%position) == 0 .or. size(scene%dynamics%response_speeds) > 0) return
     allocate (motions%response)
     call find_machine_response(machine, linear, unbalance_force(machine, scene), motions%response, found)
     if (found) return
@@ -81,7 +81,7 @@ contains
     if (size(motions%mode) > 0) frequency = aimag(motions%mode(1)%rate)
   end function frequency_of
 
-  !> Shows and writes modes and response, of a sweep those of all its points.
+  !> Shows and writes modes, of a sweep those of all its points.
   subroutine add_motions(machine, motions, sweeps, log, summary, arrays)
     type(machine_type), intent(in) :: machine
     type(machine_motions_type), intent(in) :: motions(:) !! of it, one a point
@@ -89,7 +89,6 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(quantity_type), allocatable, intent(inout) :: summary(:) !! gets growth and frequency of the least damped mode
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
-    integer :: k
 
     associate (last => motions(size(motions)))
       if (allocated(last%mode)) then
@@ -99,10 +98,6 @@ contains
           call add_result(summary, 'whirl_frequency', frequency_of(last))
         end if
         call add_modes(machine, motions, sweeps, arrays)
-      end if
-      if (allocated(last%response)) then
-        call show_response(machine, last%response%motion, log)
-        call add_responses(machine, [(motions(k)%response, k=1, size(motions))], sweeps, arrays)
       end if
     end associate
   end subroutine add_motions

@@ -27,6 +27,9 @@ module gfb_machine_study
   use gfb_machine_modes, only: not_counted
   use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
   use gfb_machine_results, only: add_body, add_shaft_line, add_bearing, history_row
+  use gfb_machine_response, only: machine_response_type, find_machine_response
+  use gfb_unbalance_results, only: unbalance_force, speed_rpm_of, show_response, add_responses
+  use gfb_critical_speeds, only: responding_type, critical_speed_type, find_responses, find_critical_speeds, add_critical_speeds
   use gfb_root_bracket, only: root_bracket_type
   use gfb_signals, only: stop_agreed
   use gfb_operation_case, only: angular_speed
@@ -45,6 +48,7 @@ module gfb_machine_study
   integer, parameter :: ways = 2 !! translations of a journal
   real(wp), parameter :: unlike = 0.01_wp   !! diameters that differ by more do not fit [1]
   real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
+  real(wp), parameter :: shortest = 0.01_wp   !! step of the speed, over that to a point [1]
   integer, parameter :: most_trials = 30          !! of the search for an onset
   real(wp), parameter :: onset_tolerance = 1.0e-8_wp !! of its speed, and of growth over speed [1]
 
@@ -68,11 +72,22 @@ module gfb_machine_study
     type(history_row_type), allocatable :: history(:)     !! of a sweep
     real(wp) :: onset = 0.0_wp !! speed from which on it whirls; 0: none was found [rpm]
     integer :: counted = not_counted !! modes, when they were counted last
+    type(machine_response_type), allocatable :: responses(:) !! to unbalance
+    type(critical_speed_type), allocatable :: critical(:)
     type(error_type), allocatable :: refused !! what is wrong with the files of the bearings
   contains
     procedure :: prepare => prepare_machine, check => check_machine, solve => solve_machine
     procedure :: write => write_machine, discard => discard_machine
   end type machine_study_type
+
+  !> The machine as what answers unbalance at a speed.
+  type, extends(responding_type) :: responding_machine_type
+    class(machine_study_type), pointer :: study => null()
+    type(scene_type), pointer :: scene => null()
+    type(run_log_type) :: log
+  contains
+    procedure :: respond => respond_at
+  end type responding_machine_type
 
 contains
 
@@ -259,6 +274,7 @@ contains
       if (scene%sweep%present) call record_point(self, scene, i, context%log)
       if (i > 1) call look_for_onset(self, scene, i, context%log)
     end do
+    if (.not. self%reason%is_given()) call answer_unbalance(self, scene, context%log)
     call count_work(self)
     self%converged = .not. self%reason%is_given()
     if (.not. self%converged) call context%log%tell(self%reason%words())
@@ -270,25 +286,106 @@ contains
     type(scene_type), intent(in) :: scene !! of the machine
     type(run_log_type), intent(in) :: log
     type(machine_motions_type), intent(inout) :: motions
+
+    call find_balance(self, log)
+    if (self%answer%converged .and. scene%general%asked%takes('dynamics')) call find_linear(self, scene, log, motions)
+  end subroutine find_answer
+
+  !> The equilibrium at the machine's present speed, by smaller steps of the speed where it is not reached at once.
+  subroutine find_balance(self, log)
+    class(machine_study_type), intent(inout) :: self
+    type(run_log_type), intent(in) :: log
+    real(wp) :: speed, from, share
+
+    speed = self%machine%speed
+    call try_speed(self, speed, log)
+    share = 0.5_wp
+    do while (.not. self%answer%converged .and. allocated(self%path%speed) .and. share >= shortest)
+      if (stop_agreed()) exit
+      from = self%path%speed(1)
+      call try_speed(self, from + share*(speed - from), log)
+      if (.not. self%answer%converged) share = 0.5_wp*share
+      if (self%answer%converged .and. share < 1.0_wp) then
+        share = min(1.0_wp, 2.0_wp*share)
+        self%answer%converged = .false.
+      end if
+    end do
+    self%machine%speed = speed
+    if (self%answer%converged) return
+    self%reason%code = reason_no_equilibrium
+    self%reason%detail = self%answer%reason
+    if (stop_agreed()) call self%reason%stopped()
+  end subroutine find_balance
+
+  !> The equilibrium at a speed, with the journals where the last ones lead, else from where they stand.
+  subroutine try_speed(self, speed, log)
+    class(machine_study_type), intent(inout) :: self
+    real(wp), intent(in) :: speed !! [rad/s]
+    type(run_log_type), intent(in) :: log
     real(wp), allocatable :: from(:)
 
+    self%machine%speed = speed
     from = self%answer%motion
+    self%answer%converged = .false.
     if (allocated(self%path%speed)) then
-      call find_machine_equilibrium(self%machine, self%bearing, self%path%at(self%machine%speed), log, self%answer, self%stiffness)
+      from = self%path%motion(:, 1)
+      call find_machine_equilibrium(self%machine, self%bearing, self%path%at(speed), log, self%answer, self%stiffness)
     end if
     if (.not. self%answer%converged) then
       if (allocated(self%stiffness)) deallocate (self%stiffness)
       call find_machine_equilibrium(self%machine, self%bearing, from, log, self%answer, self%stiffness)
     end if
-    if (self%answer%converged) then
-      call self%path%add(self%machine%speed, self%answer%motion)
-      if (scene%general%asked%takes('dynamics')) call find_linear(self, scene, log, motions)
-      return
+    if (self%answer%converged) call self%path%add(speed, self%answer%motion)
+  end subroutine try_speed
+
+  !> The responses to unbalance, at speeds of their own or those of the points, and the critical speeds between them. The machine is
+  !> back where it was behind it.
+  subroutine answer_unbalance(self, scene, log)
+    class(machine_study_type), target, intent(inout) :: self
+    type(scene_type), target, intent(in) :: scene !! of the machine
+    type(run_log_type), intent(in) :: log
+    type(responding_machine_type) :: machine
+    real(wp) :: speed
+    integer :: i
+
+    if (.not. scene%general%asked%takes('dynamics') .or. size(scene%unbalance%position) == 0) return
+    machine%study => self
+    machine%scene => scene
+    machine%log = log
+    speed = self%machine%speed
+    allocate (self%responses(0))
+    if (size(scene%dynamics%response_speeds) > 0) then
+      call find_responses(machine, scene%dynamics%response_speeds, speed/angular_speed(1.0_wp), log, self%responses)
+    else
+      do i = 1, size(self%motions)
+        if (allocated(self%motions(i)%response)) self%responses = [self%responses, self%motions(i)%response]
+      end do
     end if
-    self%reason%code = reason_no_equilibrium
-    self%reason%detail = self%answer%reason
-    if (stop_agreed()) call self%reason%stopped()
-  end subroutine find_answer
+    call find_critical_speeds(machine, self%machine, self%responses, log, self%critical)
+    self%reason = reason_type()
+    if (abs(self%path%speed(1) - speed) <= 0.0_wp) return
+    self%machine%speed = speed
+    call find_balance(self, log)
+  end subroutine answer_unbalance
+
+  !> The response at a speed.
+  subroutine respond_at(self, speed_rpm, response, found)
+    class(responding_machine_type), intent(inout) :: self !! the machine
+    real(wp), intent(in) :: speed_rpm !! [rpm]
+    type(machine_response_type), intent(out) :: response !! where it was found
+    logical, intent(out) :: found !! there is an equilibrium, and it could be linearised
+    type(linear_bearing_type), allocatable :: linear(:)
+
+    associate (study => self%study)
+      study%machine%speed = angular_speed(speed_rpm)
+      call find_balance(study, self%log)
+      found = study%answer%converged
+      if (.not. found) return
+      call linearise(study, self%log, linear)
+      call find_machine_response(study%machine, linear, unbalance_force(study%machine, self%scene), response, found)
+      call drop_linear(study, linear)
+    end associate
+  end subroutine respond_at
 
   !> A row of the history, and a line of the log.
   subroutine record_point(self, scene, point, log)
@@ -363,18 +460,36 @@ contains
     type(run_log_type), intent(in) :: log
     type(machine_motions_type), intent(inout) :: motions
     type(linear_bearing_type), allocatable :: linear(:)
+
+    call linearise(self, log, linear)
+    call find_motions(scene, self%machine, linear, log, self%counted, motions)
+    call drop_linear(self, linear)
+  end subroutine find_linear
+
+  !> All bearings about their answers.
+  subroutine linearise(self, log, linear)
+    class(machine_study_type), intent(inout) :: self
+    type(run_log_type), intent(in) :: log
+    type(linear_bearing_type), allocatable, intent(out) :: linear(:)
     integer :: i
 
     allocate (linear(size(self%bearing)))
     do i = 1, size(linear)
       call linearise_bearing(self%bearing(i)%bearing, vibration_of(self%part(i)%scene), log, linear(i))
     end do
-    call find_motions(scene, self%machine, linear, log, self%counted, motions)
+  end subroutine linearise
+
+  !> Frees them, and counts what they have cost.
+  subroutine drop_linear(self, linear)
+    class(machine_study_type), intent(inout) :: self
+    type(linear_bearing_type), intent(inout) :: linear(:)
+    integer :: i
+
     do i = 1, size(linear)
       self%factorizations = self%factorizations + linear(i)%response%factorizations
       call drop_linear_bearing(linear(i))
     end do
-  end subroutine find_linear
+  end subroutine drop_linear
 
   !> The journals where their bearings carry the loads by levers, tilted as the shaft bends between them under its weight.
   function first_motions(self) result(motion)
@@ -416,6 +531,16 @@ contains
     call add_body(self%machine, summary)
     if (self%converged) call add_shaft_line(self%machine, self%answer, arrays)
     if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
+    if (self%converged .and. allocated(self%responses)) then
+      if (size(self%responses) > 0) then
+        associate (last => self%responses(size(self%responses)))
+          if (size(self%responses) > 1) call context%log%line('unbalance        at '//text(speed_rpm_of(last), 6)//' rpm:')
+          call show_response(self%machine, last, context%log)
+        end associate
+        call add_responses(self%machine, self%responses, scene%sweep%present .or. size(scene%dynamics%response_speeds) > 0, arrays)
+        call add_critical_speeds(self%critical, context%log, summary, arrays)
+      end if
+    end if
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
       call add_bearing(i, self%part(i)%solution%bearing, scene%output, context%log, summary, grids)

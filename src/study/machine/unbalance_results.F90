@@ -4,6 +4,8 @@ module gfb_unbalance_results
   use gfb_kinds, only: wp
   use gfb_text, only: text
   use gfb_units, only: degrees, micrometres
+  use gfb_ellipse_axes, only: ellipse_axes, major_axis
+  use gfb_operation_case, only: angular_speed
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_case_file, only: case_array_type, add_array
@@ -12,7 +14,7 @@ module gfb_unbalance_results
   use gfb_machine_response, only: machine_response_type
   implicit none (type)
   private
-  public :: unbalance_force, shown_nodes, show_response, add_responses
+  public :: unbalance_force, shown_nodes, amplitude_at, speed_rpm_of, show_response, add_responses
 
 contains
 
@@ -42,6 +44,23 @@ contains
     node = [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), machine%station]
   end function shown_nodes
 
+  !> Longer half axes of nodes' orbits.
+  pure function amplitude_at(response, node) result(amplitude)
+    type(machine_response_type), intent(in) :: response
+    integer, intent(in) :: node(:)
+    real(wp) :: amplitude(size(node)) !! [m]
+
+    associate (motion => response%motion, n => size(response%motion)/2)
+      amplitude = major_axis(motion(2*node - 1), motion(n + 2*node - 1))
+    end associate
+  end function amplitude_at
+
+  !> Speeds of responses.
+  elemental real(wp) function speed_rpm_of(response) result(speed)
+    type(machine_response_type), intent(in) :: response
+    speed = response%speed/angular_speed(1.0_wp)
+  end function speed_rpm_of
+
   !> How unbalance moves the shaft: z, amplitude and phase of x, of y, at bearings, discs and stations.
   function response_table(machine, response) result(table)
     type(machine_type), intent(in) :: machine
@@ -60,37 +79,90 @@ contains
     end do
   end function response_table
 
-  !> The same as lines of the log.
-  subroutine show_response(machine, response, log)
+  !> The ellipses of the same motions: z, half axes, angle of the longer one.
+  function axes_table(machine, response) result(table)
     type(machine_type), intent(in) :: machine
     complex(wp), intent(in) :: response(:) !! [m], [1]
-    type(run_log_type), intent(in) :: log !! where lines go
     real(wp), allocatable :: table(:, :)
+    integer, allocatable :: node(:)
+    integer :: i, n
+
+    n = 2*size(machine%shaft%z)
+    node = shown_nodes(machine)
+    allocate (table(4, size(node)))
+    do i = 1, size(node)
+      table(:, i) = [machine%shaft%z(node(i)), ellipse_axes(response(2*node(i) - 1), response(n + 2*node(i) - 1))]
+    end do
+  end function axes_table
+
+  !> Forces of the films on the shaft: z, amplitude and phase of that along x, along y, and its longer half axis.
+  function force_table(machine, response) result(table)
+    type(machine_type), intent(in) :: machine
+    type(machine_response_type), intent(in) :: response
+    real(wp) :: table(6, size(response%force, 2))
     integer :: i
 
-    table = response_table(machine, response)
     do i = 1, size(table, 2)
-      call log%line('response         at '//text(table(1, i)*1.0e3_wp, 4)//' mm: '//text(table(2, i)*micrometres, 4)//' x '// &
-                    text(table(4, i)*micrometres, 4)//' um, phase '//text(table(3, i)*degrees, 4)//', '// &
-                    text(table(5, i)*degrees, 4)//' deg')
+      associate (x => response%force(1, i), y => response%force(2, i))
+        table(:, i) = [machine%journal(i)%position, abs(x), phase_of(x), abs(y), phase_of(y), major_axis(x, y)]
+      end associate
+    end do
+  end function force_table
+
+  !> The response as lines of the log.
+  subroutine show_response(machine, response, log)
+    type(machine_type), intent(in) :: machine
+    type(machine_response_type), intent(in) :: response
+    type(run_log_type), intent(in) :: log !! where lines go
+    real(wp), allocatable :: table(:, :), force(:, :)
+    character(len=:), allocatable :: words
+    integer :: i
+
+    table = response_table(machine, response%motion)
+    force = force_table(machine, response)
+    do i = 1, size(table, 2)
+      words = 'response         at '//text(table(1, i)*1.0e3_wp, 4)//' mm: '//text(table(2, i)*micrometres, 4)//' x '// &
+              text(table(4, i)*micrometres, 4)//' um, phase '//text(table(3, i)*degrees, 4)//', '//text(table(5, i)*degrees, 4)//' deg'
+      if (i <= size(force, 2)) words = words//', force '//text(force(6, i), 4)//' N'
+      call log%line(words)
     end do
   end subroutine show_response
 
-  !> The response as an array: a row a place; of a sweep a row a point, place after place.
+  !> Responses as arrays: a row a place; at several speeds a row a speed, place after place.
   subroutine add_responses(machine, responses, sweeps, arrays)
     type(machine_type), intent(in) :: machine
-    type(machine_response_type), intent(in) :: responses(:) !! one a point
-    logical, intent(in) :: sweeps !! there are several points
+    type(machine_response_type), intent(in) :: responses(:) !! one a speed
+    logical, intent(in) :: sweeps !! there are several speeds
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
-    character(len=*), parameter :: path = '/dynamics/response', words = 'unbalance response of bearings, discs, stations: z [m], '// &
-                                   'amplitude [m] and phase [rad] of x, of y; x = amplitude cos(speed t + phase)'
-    real(wp), allocatable :: table(:, :)
-    integer :: k
+    character(len=*), parameter :: each = 'unbalance response of bearings, discs, stations: z [m], '
+    real(wp), allocatable :: table(:, :, :), axes(:, :, :), force(:, :, :)
+    integer :: k, n
 
-    table = response_table(machine, responses(1)%motion)
-    if (sweeps) table = reshape([(response_table(machine, responses(k)%motion), k=1, size(responses))], [size(table), size(responses)])
-    if (sweeps) call add_array(arrays, path, 'mixed SI', words, table, .true.)
-    if (.not. sweeps) call add_array(arrays, path, 'mixed SI', words, table)
+    n = size(responses)
+    associate (nodes => size(shown_nodes(machine)))
+      table = reshape([(response_table(machine, responses(k)%motion), k=1, n)], [5, nodes, n])
+      axes = reshape([(axes_table(machine, responses(k)%motion), k=1, n)], [4, nodes, n])
+      force = reshape([(force_table(machine, responses(k)), k=1, n)], [6, size(machine%journal), n])
+    end associate
+    call add_table('response', each//'amplitude [m] and phase [rad] of x, of y; x = amplitude cos(speed t + phase)', table)
+    call add_table('response_axes', each//'half axes of the orbit [m], the shorter one negative against the speed, and angle of the '// &
+                   'longer one from x on [rad]', axes)
+    call add_table('response_force', 'force of each film on the shaft: z of the bearing [m], amplitude [N] and phase [rad] along x, along y, '// &
+                   'longer half axis [N]', force)
+    if (sweeps) call add_array(arrays, '/dynamics/response_speed', 'rpm', 'speeds of the response to unbalance', reshape(speed_rpm_of(responses), [1, n]))
+
+  contains
+
+    !> Rows of places, or of speeds.
+    subroutine add_table(name, meaning, values)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(in) :: values(:, :, :) !! (value, place, speed) [SI]
+
+      associate (m => size(values, 1)*size(values, 2))
+        if (sweeps) call add_array(arrays, '/dynamics/'//name, 'mixed SI', meaning, reshape(values, [m, n]), .true.)
+        if (.not. sweeps) call add_array(arrays, '/dynamics/'//name, 'mixed SI', meaning, values(:, :, 1))
+      end associate
+    end subroutine add_table
   end subroutine add_responses
 
   !> Angle of a complex number [rad].
