@@ -242,6 +242,26 @@ def check_alone(checks, folder, base, content):
         checks.below(f"alone: {name}", alone[name]/base[f"{name}_1"] - 1.0, 1.0e-8)
 
 
+def check_start(checks, folder):
+    """Where levers lead to no equilibrium it is come to from a higher speed; what is doubtful is a warning."""
+    content = coarse(folder)
+    content["machine"] |= {"speed_rpm": 3000.0, "gravity": (-30.0, 0.0)}
+    answer = solve(folder, "slow", content)
+    checks.that("from a higher speed", "from a higher speed" in answer.log and answer["minimum_gap_2"] < 0.5e-6)
+    check_balance(checks, answer, content)
+    content["machine"]["speed_rpm"] = 300.0
+    checks.that("a machine that touches down", "touches down" in solve(folder, "slower", content, status=2).log)
+    short = machine_case(folder, REFERENCE["linear"][0], COARSE, 1)
+    short["shaft"]["elements"] = 1
+    short["dynamics"]["largest_frequency"] = 2.0e4
+    checks.that("few elements", "elements, 4 are needed" in solve(folder, "short", short, options=("--check",)).log)
+    alone = coarse(folder)
+    alone["bearings"] = {"files": alone["bearings"]["files"][:1], "positions": [0.2]}
+    checks.that("one bearing", "one bearing alone holds the shaft" in solve(folder, "alone", alone, options=("--check",)).log)
+    alone["machine"]["gravity"] = (0.0, 0.0)
+    checks.that("nothing that loads", "neither weight nor loads" in solve(folder, "alone", alone, options=("--check",)).log)
+
+
 def check_wrong(checks, folder):
     """Mistakes are named with their rule."""
     content = coarse(folder)
@@ -272,7 +292,7 @@ def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
         for check in ((check_all_references, check_onset) if "--long" in sys.argv else
-                      (check_reference, check_critical, check_invariants, check_wrong)):
+                      (check_reference, check_critical, check_start, check_invariants, check_wrong)):
             check(checks, pathlib.Path(name))
     checks.close()
 

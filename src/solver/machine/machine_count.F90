@@ -24,6 +24,7 @@ module gfb_machine_count
   real(wp), parameter :: shift = 1.0_wp        !! the circle's centre, over the highest frequency [1]
   real(wp), parameter :: depth = 0.2_wp        !! loss of modes that it holds up to that frequency, over it [1]
   real(wp), parameter :: away(2) = [3.0_wp, 6.0_wp] !! from relaxing springs, over the radius in which their rates lie [1]
+  integer, parameter :: first_steps = 8        !! of the half circle, before the phase asks for more
   real(wp), parameter :: room = 1.15_wp        !! of the largest circle over the least [1]
 
   !> The determinant.
@@ -61,12 +62,13 @@ contains
   end subroutine circle_limits
 
   !> Counts modes in a circle in the widest gap between those that are known.
-  subroutine count_modes(machine, linear, centre, limits, known, missing, radius, found)
+  subroutine count_modes(machine, linear, centre, limits, known, beyond, missing, radius, found)
     type(machine_type), target, intent(in) :: machine
     type(linear_bearing_type), target, intent(inout) :: linear(:) !! its bearings about their answers
     real(wp), intent(in) :: centre    !! of the circle [1/s]
     real(wp), intent(in) :: limits(2) !! its least and largest radius [1/s]
     complex(wp), intent(in) :: known(:) !! rates of modes, one of each conjugate pair [1/s]
+    complex(wp), intent(in) :: beyond(:) !! where others may be: those outside the circle are divided out, too, for a smoother phase [1/s]
     integer, intent(out) :: missing !! modes that are not known, each of a conjugate pair counts; negative: known ones that are none
     real(wp), intent(out) :: radius !! of the circle [1/s]
     logical, intent(out) :: found !! the circle could be followed
@@ -76,14 +78,14 @@ contains
     integer :: i
 
     radius = circle_between(known, centre, limits)
-    divided = pack(known, abs(known - centre) < radius)
+    divided = [pack(known, abs(known - centre) < radius), pack(beyond, abs(beyond - centre) > radius)]
     missing = 0
     found = .true.
     do i = 1, size(linear)
       call skip_inner_modes(linear(i)%response, .true.)
       if (found) call add_relaxing(linear(i), machine%count < motions, divided, found)
     end do
-    count = mode_count_type(centre, radius, divided)
+    count = mode_count_type(centre, radius, divided, first_steps, compares=.true.)
     determinant = machine_determinant_type(machine, linear)
     if (found) call count_missing(determinant, count, missing, found)
     do i = 1, size(linear)

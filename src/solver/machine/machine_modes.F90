@@ -78,7 +78,7 @@ contains
           call take_mode(machine, linear, start(i), others)
         end if
       end do
-      call count_all(machine, linear, [mode%rate, others%rate], centre, limits, log, missing, reason)
+      call count_all(machine, linear, [mode%rate, others%rate], start%rate, centre, limits, log, missing, reason)
       if (missing == 0) exit
     end do
     call log%is_on('')
@@ -145,10 +145,11 @@ contains
   end subroutine take_mode
 
   !> Counts the modes in the circle, and says what is missing.
-  subroutine count_all(machine, linear, known, centre, limits, log, missing, reason)
+  subroutine count_all(machine, linear, known, beyond, centre, limits, log, missing, reason)
     type(machine_type), intent(in) :: machine
     type(linear_bearing_type), intent(inout) :: linear(:)
     complex(wp), intent(in) :: known(:) !! rates [1/s]
+    complex(wp), intent(in) :: beyond(:) !! where others may be [1/s]
     real(wp), intent(in) :: centre, limits(2) !! of the circle [1/s]
     type(run_log_type), intent(in) :: log
     integer, intent(out) :: missing
@@ -157,7 +158,7 @@ contains
     logical :: found
 
     call log%is_on('machine, count of modes')
-    call count_modes(machine, linear, centre, limits, known, missing, radius, found)
+    call count_modes(machine, linear, centre, limits, known, beyond, missing, radius, found)
     if (.not. found) then
       missing = 1
       reason = 'modes could not be counted: the circle about '//text(centre, 4)//' 1/s runs through one that was not found'

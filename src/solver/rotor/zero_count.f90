@@ -12,7 +12,8 @@
 !> \theta \), with the same a as in the modulus, \( a \cos \theta \), whose ends give it: it is
 !> taken away. The half circle is divided until no step changes what is left by more than a fixed
 !> angle; a zero that is not known and lies next to the circle makes a step of about half a turn
-!> and is not passed over.
+!> and is not passed over. Where the phase turns fast steps are compared with those beside them: one
+!> that hides a whole turn is unlike them.
 module gfb_zero_count
   use gfb_kinds, only: wp
   use gfb_units, only: pi
@@ -34,6 +35,7 @@ module gfb_zero_count
     real(wp) :: radius = 0.0_wp           !! [1/s]
     complex(wp), allocatable :: known(:)  !! zeros, one of each conjugate pair [1/s]
     integer :: steps = first_steps        !! in which the half circle is divided at first
+    logical :: compares = .false.         !! steps beside each other must turn the phase alike
     integer, private :: at_centre = 0     !! zeros that are known as well
     real(wp), allocatable :: angle(:)     !! of the places so far, rising from 0 to pi [rad]
     complex(wp), allocatable :: value(:)  !! logarithm of g there [1]
@@ -62,8 +64,27 @@ contains
         angle = 0.5_wp*(count%angle(i - 1) + count%angle(i))
         return
       end do
+      if (count%compares) angle = unlike_neighbour(count)
     end if
   end function next
+
+  !> The middle of a step that turns the phase unlike the one beside it, which may hide a whole
+  !> turn; negative where there is none.
+  pure function unlike_neighbour(count) result(angle)
+    class(mode_count_type), intent(in) :: count
+    real(wp) :: angle !! [rad]
+    real(wp) :: width(2)
+    integer :: i
+
+    angle = -1.0_wp
+    do i = 3, size(count%angle)
+      width = count%angle(i - 1:i) - count%angle(i - 2:i - 1)
+      if (abs(step(count, i - 1)/width(1) - step(count, i)/width(2))*maxval(width) <= &
+          largest_step) cycle
+      angle = count%angle(i - 1) + 0.5_wp*merge(width(2), -width(1), width(2) > width(1))
+      return
+    end do
+  end function unlike_neighbour
 
   !> A place of the half circle.
   pure function place(count, angle) result(rate)

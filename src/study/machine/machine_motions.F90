@@ -11,6 +11,8 @@ module gfb_machine_motions
   use gfb_scene, only: scene_type
   use gfb_case_file, only: case_array_type, add_array
   use gfb_shaft, only: shaft_motions => motions, journal_places
+  use gfb_bending_wave, only: elements_per_wave
+  use gfb_operation_case, only: angular_speed
   use gfb_machine, only: machine_type
   use gfb_machine_linear, only: linear_bearing_type
   use gfb_machine_starts, only: machine_mode_type
@@ -20,8 +22,9 @@ module gfb_machine_motions
   use gfb_rotor, only: whirl_sense
   implicit none (type)
   private
-  public :: find_motions, add_motions, growth_of, frequency_of
+  public :: find_motions, check_waves, add_motions, growth_of, frequency_of
 
+  real(wp), parameter :: fewest_elements = 4.0_wp !! of a wave of the shaft [1]
   real(wp), parameter :: usual_highest = 1.5_wp !! frequency up to which modes are looked for, over the speed [1]
 
   !> What is written of each mode.
@@ -53,8 +56,7 @@ contains
     real(wp) :: highest
     logical :: found
 
-    highest = scene%dynamics%largest_frequency
-    if (.not. highest > 0.0_wp) highest = usual_highest*machine%speed
+    highest = highest_frequency(scene, machine%speed)
     call find_machine_modes(machine, linear, highest, log, motions%mode, reason, counted)
     if (reason /= '') call log%warning(reason)
     if (size(scene%unbalance%position) == 0 .or. size(scene%dynamics%response_speeds) > 0) return
@@ -64,6 +66,31 @@ contains
     deallocate (motions%response)
     call log%warning('the response to unbalance was not found: a bearing cannot be solved at the frequency of the speed')
   end subroutine find_motions
+
+  !> Frequency up to which modes are looked for.
+  pure real(wp) function highest_frequency(scene, speed) result(highest)
+    type(scene_type), intent(in) :: scene !! of the machine
+    real(wp), intent(in) :: speed !! of it [rad/s]
+
+    highest = scene%dynamics%largest_frequency
+    if (.not. highest > 0.0_wp) highest = usual_highest*speed
+  end function highest_frequency
+
+  !> Warns of a shaft whose elements are long against the waves of the modes that are looked for.
+  subroutine check_waves(scene, machine, log)
+    type(scene_type), intent(in) :: scene !! of the machine
+    type(machine_type), intent(in) :: machine
+    type(run_log_type), intent(in) :: log !! gets the warning
+    real(wp) :: highest, elements
+
+    highest = highest_frequency(scene, machine%speed)
+    if (scene%sweep%present) highest = highest_frequency(scene, angular_speed(maxval(scene%sweep%values)))
+    if (.not. highest > 0.0_wp) return
+    elements = elements_per_wave(machine%shaft, highest)
+    if (elements >= fewest_elements) return
+    call log%warning('a wave of the shaft at '//text(highest, 4)//' rad/s has '//text(elements, 2)//' elements, '// &
+                     text(nint(fewest_elements))//' are needed: more elements in &shaft, or a smaller largest_frequency in &dynamics')
+  end subroutine check_waves
 
   !> Growth of the mode that grows most or dies out last; not a number where there is none [1/s].
   pure real(wp) function growth_of(motions) result(growth)

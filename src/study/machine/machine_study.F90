@@ -25,7 +25,7 @@ module gfb_machine_study
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_modes, only: not_counted
-  use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
+  use gfb_machine_motions, only: machine_motions_type, find_motions, check_waves, add_motions, growth_of
   use gfb_machine_results, only: add_body, add_shaft_line, add_bearing, history_row
   use gfb_machine_response, only: machine_response_type, find_machine_response
   use gfb_unbalance_results, only: unbalance_force, speed_rpm_of, show_response, add_responses
@@ -48,6 +48,7 @@ module gfb_machine_study
   integer, parameter :: ways = 2 !! translations of a journal
   real(wp), parameter :: unlike = 0.01_wp   !! diameters that differ by more do not fit [1]
   real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
+  real(wp), parameter :: higher(*) = [1.0_wp, 1.5_wp, 2.5_wp] !! speeds of a start, over the first [1]
   real(wp), parameter :: shortest = 0.01_wp   !! step of the speed, over that to a point [1]
   integer, parameter :: most_trials = 30          !! of the search for an onset
   real(wp), parameter :: onset_tolerance = 1.0e-8_wp !! of its speed, and of growth over speed [1]
@@ -110,6 +111,8 @@ contains
                   text(self%machine%shaft%coordinates())//' motions, of which '// &
                   text(self%machine%count*size(self%machine%journal))//' at journals')
     if (.not. any(abs(self%machine%force) > 0.0_wp)) call log%line('neither weight nor loads: journals stand in the middle of their sleeves')
+    if (size(self%machine%journal) == 1) call log%warning('one bearing alone holds the shaft, by the tilts of its journal')
+    if (scene%general%asked%takes('dynamics')) call check_waves(scene, self%machine, log)
     call bearing_loads(self%machine, load, regular)
     allocate (self%part(size(self%machine%journal)))
     do i = 1, size(self%part)
@@ -244,12 +247,78 @@ contains
     type(scene_type), intent(in) :: scene !! that is asked for
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
-    type(path_report_type) :: report
     integer :: i, points
 
     allocate (self%bearing(size(self%part)), self%history(0))
+    points = 1
+    if (scene%sweep%present) points = size(scene%sweep%values)
+    allocate (self%motions(points))
+    call start_machine(self, context, error)
+    if (allocated(error)) return
+    do i = 1, points
+      if (self%reason%is_given()) exit
+      if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
+      call find_answer(self, scene, context%log, self%motions(i))
+      if (self%reason%is_given()) exit
+      if (scene%sweep%present) call record_point(self, scene, i, context%log)
+      if (i > 1) call look_for_onset(self, scene, i, context%log)
+    end do
+    if (.not. self%reason%is_given()) call answer_unbalance(self, scene, context%log)
+    call count_work(self)
+    self%converged = .not. self%reason%is_given()
+    if (.not. self%converged) call context%log%tell(self%reason%words())
+  end subroutine solve_machine
+
+  !> An equilibrium to begin with: at the first speed, or, where levers lead to none there, at a higher one, from which the speed
+  !> then falls. The reason is that of the first speed.
+  !>
+  !> Fails when a mesh cannot be cut.
+  subroutine start_machine(self, context, error)
+    class(machine_study_type), target, intent(inout) :: self
+    type(run_context_type), intent(in) :: context !! of the run
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(reason_type) :: first
+    real(wp) :: speed_rpm
+    integer :: i
+
+    speed_rpm = self%part(1)%scene%operation%speed_rpm
+    do i = 1, size(higher)
+      self%machine%speed = angular_speed(higher(i)*speed_rpm)
+      call start_bearings(self, higher(i)*speed_rpm, context, error)
+      if (allocated(error)) return
+      if (.not. self%reason%is_given()) then
+        self%answer%motion = first_motions(self)
+        call find_balance(self, context%log)
+      end if
+      if (.not. self%reason%is_given()) return
+      if (i == 1) first = self%reason
+      if (stop_agreed() .or. .not. speed_rpm > 0.0_wp) exit
+      if (i == size(higher)) exit
+      call context%log%line('no equilibrium at '//text(higher(i)*speed_rpm, 6)//' rpm: '//self%reason%detail)
+      call context%log%line('from a higher speed:')
+      self%reason = reason_type()
+    end do
+    self%reason = first
+  end subroutine start_machine
+
+  !> Each bearing alone, with its journal under its load by levers.
+  !>
+  !> Fails when a mesh cannot be cut.
+  subroutine start_bearings(self, speed_rpm, context, error)
+    class(machine_study_type), target, intent(inout) :: self
+    real(wp), intent(in) :: speed_rpm !! [rpm]
+    type(run_context_type), intent(in) :: context !! of the run
+    type(error_type), allocatable, intent(out) :: error !! why it failed
+    type(path_report_type) :: report
+    integer :: i
+
     do i = 1, size(self%part)
       associate (part => self%part(i))
+        if (allocated(part%solution)) then
+          call part%solution%destroy()
+          deallocate (part%solution)
+        end if
+        part%scene%operation%speed_rpm = speed_rpm
         call new_solution(part%solution)
         call context%log%line('bearing '//text(i)//' alone:')
         call part%solution%set_up(part%scene, part%plan, context)
@@ -263,22 +332,7 @@ contains
         self%bearing(i) = machine_bearing_type(part%solution%bearing, part%solution%newton, part%solution%path)
       end associate
     end do
-    points = 1
-    if (scene%sweep%present) points = size(scene%sweep%values)
-    allocate (self%motions(points))
-    self%answer%motion = first_motions(self)
-    do i = 1, points
-      if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
-      call find_answer(self, scene, context%log, self%motions(i))
-      if (self%reason%is_given()) exit
-      if (scene%sweep%present) call record_point(self, scene, i, context%log)
-      if (i > 1) call look_for_onset(self, scene, i, context%log)
-    end do
-    if (.not. self%reason%is_given()) call answer_unbalance(self, scene, context%log)
-    call count_work(self)
-    self%converged = .not. self%reason%is_given()
-    if (.not. self%converged) call context%log%tell(self%reason%words())
-  end subroutine solve_machine
+  end subroutine start_bearings
 
   !> The equilibrium at the machine's present speed, from the last one, and small motions about it where they are asked for.
   subroutine find_answer(self, scene, log, motions)
@@ -298,6 +352,9 @@ contains
     real(wp) :: speed, from, share
 
     speed = self%machine%speed
+    if (self%answer%converged .and. allocated(self%path%speed)) then
+      if (abs(self%path%speed(1) - speed) <= 0.0_wp) return
+    end if
     call try_speed(self, speed, log)
     share = 0.5_wp
     do while (.not. self%answer%converged .and. allocated(self%path%speed) .and. share >= shortest)
