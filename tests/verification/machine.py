@@ -242,6 +242,69 @@ def check_alone(checks, folder, base, content):
         checks.below(f"alone: {name}", alone[name]/base[f"{name}_1"] - 1.0, 1.0e-8)
 
 
+ROTOR = {"mass": 2.0, "transverse_inertia": 0.02, "polar_inertia": 7.0e-3, "bearing_distance": 0.15}
+STIFFER = (5.0e12, 1.0e13, 2.0e13)  # moduli of a shaft, each twice the one before
+
+
+def rigid_bearing():
+    """A bearing of two equal ones, as the rows have them, on a coarse mesh over the whole width."""
+    return {"scene": {"analysis": "linear_dynamics"},
+            "bearing": {"radius": 19.05e-3, "length": 38.1e-3, "clearance": 31.8e-6, "leading_edge_angle": 0.0},
+            "gas": {"viscosity": 1.95e-5, "ambient_pressure": 101350.0},
+            "model": {"foil": "elastic_foundation", "foundation_stiffness": 4.7e9, "half_width": "no"},
+            "foil_damping": {"foundation_damping": 3.0e5}, "mesh": dict(zip(("circumferential_elements", "axial_elements"), COARSE)),
+            "operation": {"speed_rpm": 13000.0, "load": (-19.62, 0.0)}, "dynamics": {"frequency_ratios": 1.0}}
+
+
+def stiff_machine(folder, modulus, highest, density=1000.0):
+    """The rotor as a shaft with a disc, both together of its mass and inertias."""
+    write_case(folder, "equal", rigid_bearing())
+    radius, whole = 19.05e-3, 0.19
+    mass = density*math.pi*radius**2*whole
+    return {"scene": {"analysis": "linear_dynamics"},
+            "shaft": {"lengths": [0.02, 0.075, 0.075, 0.02], "outer_diameters": 2.0*radius, "youngs_modulus": modulus,
+                      "poissons_ratio": 0.3, "density": density, "elements": 1},
+            "discs": {"positions": 0.095, "masses": 2.0*ROTOR["mass"] - mass, "polar_inertias": ROTOR["polar_inertia"] - mass*radius**2/2.0,
+                      "transverse_inertias": ROTOR["transverse_inertia"] - mass*(radius**2/4.0 + whole**2/12.0)},
+            "bearings": {"files": ["equal.nml", "equal.nml"], "positions": [0.02, 0.17]},
+            "machine": {"speed_rpm": 13000.0, "gravity": (-9.81, 0.0)}, "dynamics": {"largest_frequency": highest}}
+
+
+def to_rigid(values):
+    """Values of three shafts, each twice as stiff as the one before, extrapolated to a rigid one: their error goes with compliance."""
+    return (values[0] - 6.0*values[1] + 8.0*values[2])/3.0
+
+
+def modes_of(answer):
+    """Rates of the modes that vibrate."""
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        rate = file["dynamics/mode_growth_rate"][...].ravel() + 1j*file["dynamics/mode_frequency"][...].ravel()
+    return rate[rate.imag > 0.0]
+
+
+def check_rigid(checks, folder):
+    """A rigid rotor on two equal bearings is the limit of a machine: all six of its modes, of both kinds, and its place."""
+    rotor = solve(folder, "rotor", rigid_bearing() | {"rotor": ROTOR})
+    known = modes_of(rotor)
+    machines, found = [], []
+    for modulus in STIFFER:
+        machines.append(solve(folder, "stiff", stiff_machine(folder, modulus, 1200.0)))
+        found.append(modes_of(machines[-1]))
+    checks.that("as many modes", all(len(rates) == len(known) for rates in found))
+    for one in known:
+        limit = to_rigid([rates[numpy.abs(rates - one).argmin()] for rates in found])
+        checks.below(f"rigid limit, mode {one:.5g} 1/s", abs(limit/one - 1.0), 2.0e-9)
+    checks.below("rigid limit, eccentricity", to_rigid([one["eccentricity_x_1"] for one in machines])/rotor["eccentricity_x"] - 1.0, 1.0e-10)
+
+
+def check_rigid_onset(checks, folder):
+    """The same limit of the onset of whirl."""
+    sweep = {"sweep": {"parameter": "speed_rpm", "values": (12600.0, 13600.0)}}
+    known = solve(folder, "rotor", rigid_bearing() | {"rotor": ROTOR} | sweep)["onset_speed_rpm"]
+    found = [solve(folder, "stiff", stiff_machine(folder, modulus, 800.0) | sweep)["onset_speed_rpm"] for modulus in STIFFER]
+    checks.below("rigid limit, onset", to_rigid(found)/known - 1.0, 5.0e-8)
+
+
 def check_start(checks, folder):
     """Where levers lead to no equilibrium it is come to from a higher speed; what is doubtful is a warning."""
     content = coarse(folder)
@@ -291,8 +354,8 @@ def main():
     """Runs all checks."""
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in ((check_all_references, check_onset) if "--long" in sys.argv else
-                      (check_reference, check_critical, check_start, check_invariants, check_wrong)):
+        for check in ((check_all_references, check_onset, check_rigid_onset) if "--long" in sys.argv else
+                      (check_reference, check_critical, check_rigid, check_start, check_invariants, check_wrong)):
             check(checks, pathlib.Path(name))
     checks.close()
 
