@@ -15,8 +15,8 @@ module gfb_resonance
   integer, parameter :: at_top = 1, below = 2, above = 3, complete = 4 !! what is looked for
   integer, parameter :: most_trials = 25 !! of the top, and of each side
   integer, parameter :: fewest = 2       !! of the top
-  real(wp), parameter :: top_tolerance = 1.0e-6_wp  !! of the critical speed [1]
-  real(wp), parameter :: side_tolerance = 1.0e-6_wp !! of N_1 and N_2 [1]
+  real(wp), parameter :: top_tolerance = 1.0e-6_wp  !! of the critical speed, from step to step [1]
+  real(wp), parameter :: side_tolerance = 1.0e-5_wp !! of N_1 and N_2, the same [1]
   real(wp), parameter :: half_power = sqrt(0.5_wp)  !! amplitude there over the largest [1]
 
   !> A resonance. Fill the first three, then ask for speeds and give amplitudes.
@@ -104,10 +104,19 @@ contains
       if (self%amplitude(i) > self%largest) return
       if (self%amplitude(i) > level) cycle
       self%bracket = root_bracket_type(self%speed(i - step), self%speed(i), &
-                                       self%amplitude(i - step) - level, self%amplitude(i) - level)
+                                       past(self, self%amplitude(i - step)), &
+                                       past(self, self%amplitude(i)))
       return
     end do
   end subroutine begin_side
+
+  !> How far an amplitude is past 0.707 of the largest: of one resonance that grows evenly with the
+  !> speed.
+  pure real(wp) function past(self, amplitude)
+    type(resonance_type), intent(in) :: self
+    real(wp), intent(in) :: amplitude !! [m]
+    past = sqrt(max(0.0_wp, (self%largest/amplitude)**2 - 1.0_wp)) - 1.0_wp
+  end function past
 
   !> False position between both ends of the bracket.
   pure subroutine look_at_side(self, speed, known)
@@ -140,7 +149,7 @@ contains
       if (amplitude > self%amplitude(self%top)) self%top = before + 1
     else
       if (before < self%top) self%top = self%top + 1
-      call self%bracket%narrow(speed, amplitude - half_power*self%largest)
+      call self%bracket%narrow(speed, past(self, amplitude))
     end if
   end subroutine tell
 
