@@ -5,10 +5,14 @@
 !> and the tilt
 !>
 !> $$ e_i = o_i - (x, y), \quad t_i = m_i - (\theta_x, \theta_y). $$
+!>
+!> Its film feels some of these. The motions that any film feels are the machine's held motions a,
+!> each once: those of a journal are some of a, with signs.
 module gfb_machine
   use gfb_kinds, only: wp
   use gfb_machine_case, only: machine_case_type
   use gfb_operation_case, only: angular_speed
+  use gfb_film_surface, only: shaft_coordinates, journal_coordinates
   use gfb_shaft_element, only: shaft_section
   use gfb_shaft, only: shaft_type, segment_type, disc_type, motions, build_shaft, journal_places, &
                        node_at
@@ -16,17 +20,20 @@ module gfb_machine
   use gfb_held_shaft, only: held_shaft_type, hold_shaft
   implicit none (type, external)
   private
-  public :: build_machine, machine_shaft, hold_at_rest, place_of_sleeve, bearing_loads
+  public :: build_machine, machine_shaft, hold_at_rest, place_of_sleeve, bearing_loads, &
+            across_at_journals
 
   integer, parameter :: ways = 2 !! a journal's motions across its axis: x, y
 
   !> A journal of the shaft, and the sleeve around it.
   type, public :: journal_type
-    real(wp) :: position = 0.0_wp        !! z of its middle [m]
-    real(wp) :: offset(2) = 0.0_wp       !! of its sleeve, x and y [m]
-    real(wp) :: misalignment(2) = 0.0_wp !! of its sleeve, about x and y [rad]
-    integer :: place(motions) = 0        !! of its motions among the shaft's
-    real(wp) :: sign(motions) = 0.0_wp   !! which they have there [1]
+    real(wp) :: position = 0.0_wp !! z of its middle [m]
+    !> Of its sleeve against the machine, see `shaft_coordinates` [m], [rad].
+    real(wp) :: sleeve(shaft_coordinates) = 0.0_wp
+    integer, allocatable :: coordinate(:) !! of the shaft's five, those that its film feels
+    integer, allocatable :: place(:)      !! of these motions among all of the machine
+    real(wp), allocatable :: sign(:)      !! which they have there [1]
+    integer, allocatable :: at(:)         !! their places among the machine's held motions
   end type journal_type
 
   !> The machine.
@@ -34,7 +41,7 @@ module gfb_machine
     type(shaft_type) :: shaft
     type(shaft_equations_type) :: equations !! of all that moves
     type(journal_type), allocatable :: journal(:)
-    integer :: count = motions            !! motions of a journal that its film feels
+    integer, allocatable :: held(:)       !! places of the held motions among all
     real(wp), allocatable :: force(:)     !! on the shaft: weight and loads [N], [N m]
     real(wp) :: speed = 0.0_wp            !! [rad/s]
     integer, allocatable :: station(:)    !! nodes of discs and further places
@@ -69,23 +76,26 @@ contains
     type(machine_case_type), intent(in) :: asked !! what the case file asks for
     real(wp), intent(in) :: positions(:) !! z of unbalances [m]
     type(machine_type) :: machine
-    integer :: i, place(motions)
+    integer :: felt, i, place(motions)
     real(wp) :: sign(motions)
 
     machine%shaft = machine_shaft(asked, positions)
     machine%equations = shaft_equations(machine%shaft)
     machine%speed = angular_speed(asked%speed_rpm)
-    machine%count = merge(motions, ways, asked%journal_tilts)
+    felt = merge(motions, ways, asked%journal_tilts)
     allocate (machine%journal(size(asked%bearing_position)))
     do i = 1, size(machine%journal)
       associate (journal => machine%journal(i))
         journal%position = asked%bearing_position(i)
-        journal%offset = asked%offset(:, i)
-        journal%misalignment = asked%misalignment(:, i)
+        journal%sleeve(journal_coordinates) = [asked%offset(:, i), asked%misalignment(:, i)]
         call journal_places(machine%shaft, node_at(machine%shaft, journal%position), &
-                            journal%place, journal%sign)
+                            place, sign)
+        journal%coordinate = journal_coordinates(:felt)
+        journal%place = place(:felt)
+        journal%sign = sign(:felt)
       end associate
     end do
+    call list_held(machine)
     machine%force = [asked%gravity(1)*machine%shaft%weight, asked%gravity(2)*machine%shaft%weight]
     do i = 1, size(asked%load_position)
       call journal_places(machine%shaft, node_at(machine%shaft, asked%load_position(i)), &
@@ -97,29 +107,41 @@ contains
                        (node_at(machine%shaft, asked%station(i)), i=1, size(asked%station))]
   end function build_machine
 
+  !> Lists the motions that any film feels, each once.
+  pure subroutine list_held(machine)
+    type(machine_type), intent(inout) :: machine !! gets the list, and journals' places in it
+    integer :: i, k
+
+    allocate (machine%held(0))
+    do i = 1, size(machine%journal)
+      associate (journal => machine%journal(i))
+        do k = 1, size(journal%place)
+          if (any(machine%held == journal%place(k))) cycle
+          machine%held = [machine%held, journal%place(k)]
+        end do
+        journal%at = [(findloc(machine%held, journal%place(k), 1), &
+                       k=1, size(journal%place))]
+      end associate
+    end do
+  end subroutine list_held
+
   !> The shaft at rest, held at its journals.
-  pure subroutine hold_at_rest(machine, count, held, regular)
+  pure subroutine hold_at_rest(machine, place, held, regular)
     type(machine_type), intent(in) :: machine
-    integer, intent(in) :: count !! motions of each journal that are held
+    integer, intent(in) :: place(:) !! of the motions that are held among all
     type(held_shaft_type), intent(out) :: held
     logical, intent(out) :: regular !! else nothing holds it
-    integer :: i
 
     call hold_shaft(real(machine%equations%dynamic_stiffness((0.0_wp, 0.0_wp), &
-                         machine%speed), wp), machine%force, &
-                    [(machine%journal(i)%place(:count), i=1, size(machine%journal))], &
-                    [(machine%journal(i)%sign(:count), i=1, size(machine%journal))], held, regular)
+                         machine%speed), wp), machine%force, place, held, regular)
   end subroutine hold_at_rest
 
-  !> Eccentricity and tilt of a sleeve against its journal, whose motions are given.
+  !> Eccentricity and tilt of a sleeve against its journal, as its film feels them.
   pure function place_of_sleeve(journal, motion) result(place)
     type(journal_type), intent(in) :: journal
-    real(wp), intent(in) :: motion(:) !! of the journal: x, y, and its rotations [m], [rad]
-    real(wp) :: place(motions) !! e_x, e_y, tilt about x and y [m], [rad]
-
-    place = [journal%offset, journal%misalignment]
-    place(:size(motion)) = place(:size(motion)) - motion
-    if (size(motion) < motions) place(ways + 1:) = 0.0_wp
+    real(wp), intent(in) :: motion(:) !! a, of the machine [m], [rad]
+    real(wp) :: place(size(journal%at)) !! of the journal's coordinates [m], [rad]
+    place = journal%sleeve(journal%coordinate) - journal%sign*motion(journal%at)
   end function place_of_sleeve
 
   !> Loads of the bearings, as if each held its journal in the middle of its sleeve and turned
@@ -132,9 +154,18 @@ contains
     real(wp) :: middle(ways, size(machine%journal))
     integer :: i
 
-    call hold_at_rest(machine, ways, held, regular)
+    call hold_at_rest(machine, across_at_journals(machine), held, regular)
     if (.not. regular) return
-    middle = reshape([(machine%journal(i)%offset, i=1, size(machine%journal))], shape(middle))
+    middle = reshape([(machine%journal(i)%sleeve(:ways), i=1, size(machine%journal))], &
+                     shape(middle))
     load = reshape(held%force - matmul(held%stiffness, pack(middle, .true.)), shape(middle))
   end subroutine bearing_loads
+
+  !> Places of the journals' translations among all motions.
+  pure function across_at_journals(machine) result(place)
+    type(machine_type), intent(in) :: machine
+    integer :: place(ways*size(machine%journal))
+    integer :: i
+    place = [(machine%journal(i)%place(:ways), i=1, size(machine%journal))]
+  end function across_at_journals
 end module gfb_machine

@@ -17,9 +17,9 @@ module gfb_machine_equilibrium
   use gfb_operating_point, only: operating_point_type
   use gfb_run_log, only: run_log_type
   use gfb_signals, only: stop_agreed, stop_words
-  use gfb_shaft, only: motions
+  use gfb_film_surface, only: all_translations => translations
   use gfb_held_shaft, only: held_shaft_type
-  use gfb_machine, only: machine_type, hold_at_rest, place_of_sleeve
+  use gfb_machine, only: machine_type, journal_type, hold_at_rest, place_of_sleeve
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
@@ -28,10 +28,9 @@ module gfb_machine_equilibrium
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
   implicit none (type)
   private
-  public :: find_machine_equilibrium, journal_force, move_journal
+  public :: find_machine_equilibrium, journal_force, move_journal, find_journal_coefficients
 
-  integer, parameter :: force_of(motions) = [1, 2, 4, 5] !! of the film's forces, those on a journal
-  integer, parameter :: ways = 2 !! translations of a journal
+  integer, parameter :: ways = 2 !! translations of a journal across its axis
   integer, parameter :: most_steps = 60 !! of Newton's method
   real(wp), parameter :: tolerance = 1.0e-10_wp !! of a motion, over the clearance [1]
   real(wp), parameter :: balanced = 1.0e-9_wp   !! imbalance over the load [1]
@@ -47,13 +46,20 @@ module gfb_machine_equilibrium
     type(path_settings_type) :: path
   end type machine_bearing_type
 
+  !> What a film does to its journal, in the order of the coordinates that it feels.
+  type :: film_type
+    real(wp), allocatable :: force(:)        !! on the shaft [N], [N m]
+    real(wp), allocatable :: stiffness(:, :) !! Z [SI]
+  end type film_type
+
   !> What was found.
   type, public :: machine_equilibrium_type
     logical :: converged = .false.
     character(len=:), allocatable :: reason !! why not
-    real(wp), allocatable :: motion(:) !! a: of all journals, one after the other [m], [rad]
+    real(wp), allocatable :: motion(:) !! a: those that films feel [m], [rad]
     real(wp), allocatable :: force(:)  !! f: of the films on the shaft [N], [N m]
     type(held_shaft_type) :: held
+    type(film_type), allocatable, private :: film(:) !! one a journal
     integer :: steps = 0
   end type machine_equilibrium_type
 
@@ -62,17 +68,15 @@ contains
   !> Forces and moments of film and asperities on a journal.
   function journal_force(bearing) result(force)
     class(bearing_system_type), intent(in) :: bearing !! solved
-    real(wp) :: force(motions) !! along x and y, about x and y [N], [N m]
-    real(wp) :: all_forces(film_forces)
-
-    all_forces = -acts_on*bearing%reaction()
-    force = all_forces(force_of)
+    real(wp) :: force(film_forces) !! see `shaft_coordinates` [N], [N m]
+    force = -acts_on*bearing%reaction()
   end function journal_force
 
   !> Solves a bearing with its journal held at another place, in one step or along a path.
-  subroutine move_journal(one, place, speed, moved, reason)
+  subroutine move_journal(one, coordinate, place, speed, moved, reason)
     type(machine_bearing_type), intent(inout) :: one !! on failure at the last place that was reached
-    real(wp), intent(in) :: place(motions) !! e_x, e_y, tilt about x and y [m], [rad]
+    integer, intent(in) :: coordinate(:) !! of the shaft's five, those that move
+    real(wp), intent(in) :: place(:) !! of its sleeve along these [m], [rad]
     real(wp), intent(in) :: speed !! of the shaft [rad/s]
     logical, intent(out) :: moved
     character(len=:), allocatable, intent(out) :: reason !! why not; empty where it was
@@ -83,7 +87,7 @@ contains
     call one%bearing%get_unknowns(unknown)
     before = one%bearing%point
     target = before
-    target%place(force_of) = place
+    target%place(coordinate) = place
     target%speed = speed
     call solve_at(one%bearing, one%newton, target, .true., one%path, report)
     if (.not. report%converged()) then
@@ -97,20 +101,36 @@ contains
   end subroutine move_journal
 
   !> How the force on a journal follows it, at the present answer.
-  subroutine find_stiffness(one, count, stiffness, found)
+  subroutine find_stiffness(one, journal, stiffness, found)
     type(machine_bearing_type), intent(inout) :: one
-    integer, intent(in) :: count !! motions that its film feels
-    real(wp), intent(out) :: stiffness(count, count) !! Z [N/m], [N], [N m]
+    type(journal_type), intent(in) :: journal
+    real(wp), allocatable, intent(out) :: stiffness(:, :) !! Z of the coordinates that its film feels [N/m], [N], [N m]
     logical, intent(out) :: found
     type(dynamic_response_type) :: response
-    complex(wp) :: coefficient(motions, motions)
+    complex(wp), allocatable :: coefficient(:, :)
 
     call create_response(one%bearing, vibration_type(stick=.false.), response)
-    call find_coefficients(one%bearing, response, (0.0_wp, 0.0_wp), coefficient, found, only_translations=count == ways)
-    stiffness = real(coefficient(:count, :count), wp)
+    call find_journal_coefficients(one%bearing, response, journal, (0.0_wp, 0.0_wp), coefficient, found)
+    stiffness = real(coefficient, wp)
     one%newton%factorizations = one%newton%factorizations + response%factorizations
     call destroy_response(response)
   end subroutine find_stiffness
+
+  !> Z of the motions that a journal's film feels.
+  subroutine find_journal_coefficients(bearing, response, journal, rate, coefficient, found)
+    type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
+    type(dynamic_response_type), intent(inout) :: response !! of it
+    type(journal_type), intent(in) :: journal
+    complex(wp), intent(in) :: rate !! lambda [1/s]
+    complex(wp), allocatable, intent(out) :: coefficient(:, :) !! (force, motion) [SI]
+    logical, intent(out) :: found
+    complex(wp) :: whole(size(response%motion), size(response%motion))
+    integer :: of(size(journal%coordinate)), k
+
+    call find_coefficients(bearing, response, rate, whole, found, only_translations=all(journal%coordinate <= ways))
+    of = [(findloc(response%motion, journal%coordinate(k), 1), k=1, size(of))]
+    coefficient = whole(of, of)
+  end subroutine find_journal_coefficients
 
   !> From bearings that are solved somewhere, each with its journal held, to the equilibrium of the machine.
   subroutine find_machine_equilibrium(machine, bearing, motion, log, answer)
@@ -119,22 +139,24 @@ contains
     real(wp), intent(in) :: motion(:) !! a, to begin with [m], [rad]
     type(run_log_type), intent(in) :: log !! where lines go
     type(machine_equilibrium_type), intent(out) :: answer
-    real(wp), allocatable :: stiffness(:, :), step(:), left(:), before(:), size_of(:), of_force(:)
+    type(film_type), allocatable :: before(:)
+    real(wp), allocatable :: stiffness(:, :), step(:), left(:), from(:), size_of(:), of_force(:)
     real(wp) :: share, norm, norm_before
     logical :: regular, done
 
     answer%reason = ''
-    call hold_at_rest(machine, machine%count, answer%held, regular)
+    call hold_at_rest(machine, machine%held, answer%held, regular)
     if (.not. regular) then
       answer%reason = 'nothing holds the shaft: one journal alone needs journal_tilts'
       return
     end if
     allocate (answer%motion, source=motion)
     allocate (answer%force, mold=motion)
+    allocate (answer%film(size(bearing)))
     call set_sizes(machine, bearing, size_of, of_force)
     call move_all(machine, bearing, motion, answer, regular)
     if (.not. regular) return
-    call linearise_all(machine, bearing, stiffness, answer)
+    call linearise_all(machine, bearing, answer)
     if (answer%reason /= '') return
     left = imbalance_of(answer)
     norm = norm2(left/of_force)
@@ -145,13 +167,15 @@ contains
       end if
       call log%is_on('machine, step '//text(answer%steps + 1)//', imbalance '//text(norm, 2))
       step = left/of_force
+      stiffness = stiffness_of(machine, answer)
       call solve_general((answer%held%stiffness + stiffness)*spread(size_of, 1, size(step))/ &
                          spread(of_force, 2, size(step)), step, regular)
       if (.not. regular) exit
       step = size_of*step
       share = min(1.0_wp, longest/max(maxval(abs(step/size_of)), tiny(1.0_wp)))
       done = share >= 1.0_wp .and. maxval(abs(step/size_of)) < tolerance
-      before = [answer%motion, answer%force]
+      before = answer%film
+      from = answer%motion
       norm_before = norm
       call take_step(machine, bearing, step, share, answer)
       if (answer%reason /= '') return
@@ -161,10 +185,10 @@ contains
       call log%detail('machine: step '//text(answer%steps)//', share '//text(share, 3)//', imbalance '//text(norm, 3))
       if (done .or. norm < balanced*1.0e-2_wp) exit
       if (norm > slow*norm_before .and. share >= 1.0_wp) then
-        call linearise_all(machine, bearing, stiffness, answer)
+        call linearise_all(machine, bearing, answer)
         if (answer%reason /= '') return
       else
-        call learn(before, answer, machine%count, size_of, stiffness)
+        call learn(machine, from, before, size_of, answer)
       end if
     end do
     call log%is_on('')
@@ -179,17 +203,21 @@ contains
     real(wp), allocatable, intent(out) :: size_of(:)  !! clearance, and that over half the width [m], [rad]
     real(wp), allocatable, intent(out) :: of_force(:) !! load, and that times half the width [N], [N m]
     real(wp) :: load, half
-    integer :: i, first
+    integer :: i
 
-    allocate (size_of(machine%count*size(bearing)), of_force(machine%count*size(bearing)))
+    allocate (size_of(size(machine%held)), of_force(size(machine%held)))
     load = max(sum(abs(machine%force(::2))), least_load*bearing(1)%bearing%force_scale())
     do i = 1, size(bearing)
       half = 0.5_wp*bearing(i)%bearing%pad(1)%film%width
-      first = (i - 1)*machine%count
-      size_of(first + 1:first + ways) = bearing(i)%bearing%clearance
-      of_force(first + 1:first + ways) = load
-      size_of(first + ways + 1:first + machine%count) = bearing(i)%bearing%clearance/half
-      of_force(first + ways + 1:first + machine%count) = load*half
+      associate (journal => machine%journal(i))
+        where (journal%coordinate <= all_translations)
+          size_of(journal%at) = bearing(i)%bearing%clearance
+          of_force(journal%at) = load
+        else where
+          size_of(journal%at) = bearing(i)%bearing%clearance/half
+          of_force(journal%at) = load*half
+        end where
+      end associate
     end do
   end subroutine set_sizes
 
@@ -208,18 +236,20 @@ contains
     type(machine_equilibrium_type), intent(inout) :: answer !! gets motions and forces
     logical, intent(out) :: moved
     character(len=:), allocatable :: reason
-    real(wp) :: force(motions)
+    real(wp) :: force(film_forces)
     integer :: i
 
+    answer%force = 0.0_wp
     do i = 1, size(bearing)
-      associate (first => (i - 1)*machine%count + 1, last => i*machine%count)
-        call move_journal(bearing(i), place_of_sleeve(machine%journal(i), motion(first:last)), machine%speed, moved, reason)
+      associate (journal => machine%journal(i))
+        call move_journal(bearing(i), journal%coordinate, place_of_sleeve(journal, motion), machine%speed, moved, reason)
         if (.not. moved) then
           answer%reason = 'bearing '//text(i)//': '//reason
           return
         end if
         force = journal_force(bearing(i)%bearing)
-        answer%force(first:last) = force(:machine%count)
+        answer%film(i)%force = force(journal%coordinate)
+        answer%force(journal%at) = answer%force(journal%at) + journal%sign*answer%film(i)%force
       end associate
     end do
     answer%motion = motion
@@ -244,44 +274,64 @@ contains
     end do
   end subroutine take_step
 
-  !> Z of all journals.
-  subroutine linearise_all(machine, bearing, stiffness, answer)
+  !> Z of each journal.
+  subroutine linearise_all(machine, bearing, answer)
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:)
-    real(wp), allocatable, intent(inout) :: stiffness(:, :) !! a block a journal [SI]
     type(machine_equilibrium_type), intent(inout) :: answer
     logical :: found
     integer :: i
 
-    stiffness = 0.0_wp*answer%held%stiffness
     do i = 1, size(bearing)
-      associate (first => (i - 1)*machine%count + 1, last => i*machine%count)
-        call find_stiffness(bearing(i), machine%count, stiffness(first:last, first:last), found)
-      end associate
+      call find_stiffness(bearing(i), machine%journal(i), answer%film(i)%stiffness, found)
       if (found) cycle
       answer%reason = 'bearing '//text(i)//': its linearised equations cannot be factorized'
       return
     end do
   end subroutine linearise_all
 
-  !> Broyden's update of each journal's Z by what a step has shown.
-  subroutine learn(before, answer, count, size_of, stiffness)
-    real(wp), intent(in) :: before(:) !! motions and forces before the step [SI]
-    type(machine_equilibrium_type), intent(in) :: answer !! behind it
-    integer, intent(in) :: count !! motions of a journal
-    real(wp), intent(in) :: size_of(:) !! of motions [m], [rad]
-    real(wp), intent(inout) :: stiffness(:, :) !! Z of all journals [SI]
-    real(wp) :: moved(count), missed(count), along(count)
-    integer :: of(count), first, k, n
+  !> Z of all held motions.
+  pure function stiffness_of(machine, answer) result(stiffness)
+    type(machine_type), intent(in) :: machine
+    type(machine_equilibrium_type), intent(in) :: answer
+    real(wp), allocatable :: stiffness(:, :) !! [SI]
+    integer :: i
 
-    n = size(answer%motion)
-    do first = 1, n, count
-      of = [(first + k, k=0, count - 1)]
-      moved = answer%motion(of) - before(of)
-      along = moved/size_of(of)**2
-      if (.not. dot_product(along, moved) > 0.0_wp) cycle
-      missed = -(answer%force(of) - before(n + of)) - matmul(stiffness(of, of), moved)
-      stiffness(of, of) = stiffness(of, of) + spread(missed, 2, count)*spread(along, 1, count)/dot_product(along, moved)
+    allocate (stiffness(size(machine%held), size(machine%held)), source=0.0_wp)
+    do i = 1, size(machine%journal)
+      associate (at => machine%journal(i)%at, sign => machine%journal(i)%sign)
+        stiffness(at, at) = stiffness(at, at) + answer%film(i)%stiffness*spread(sign, 1, size(at))*spread(sign, 2, size(at))
+      end associate
+    end do
+  end function stiffness_of
+
+  !> Broyden's update of each journal's Z by what a step has shown.
+  pure subroutine learn(machine, from, before, size_of, answer)
+    type(machine_type), intent(in) :: machine
+    real(wp), intent(in) :: from(:) !! motions before the step [m], [rad]
+    type(film_type), intent(in) :: before(:) !! the films there
+    real(wp), intent(in) :: size_of(:) !! of motions [m], [rad]
+    type(machine_equilibrium_type), intent(inout) :: answer !! behind it
+    integer :: i
+
+    do i = 1, size(before)
+      associate (at => machine%journal(i)%at, sign => machine%journal(i)%sign, film => answer%film(i))
+        call learn_one(sign*(answer%motion(at) - from(at)), film%force - before(i)%force, size_of(at), film%stiffness)
+      end associate
     end do
   end subroutine learn
+
+  !> The same of one journal.
+  pure subroutine learn_one(moved, gained, size_of, stiffness)
+    real(wp), intent(in) :: moved(:)   !! the step [m], [rad]
+    real(wp), intent(in) :: gained(:)  !! force by it [N], [N m]
+    real(wp), intent(in) :: size_of(:) !! of motions [m], [rad]
+    real(wp), intent(inout) :: stiffness(:, :) !! Z [SI]
+    real(wp), dimension(size(moved)) :: along, missed
+
+    along = moved/size_of**2
+    if (.not. dot_product(along, moved) > 0.0_wp) return
+    missed = -gained - matmul(stiffness, moved)
+    stiffness = stiffness + spread(missed, 2, size(moved))*spread(along, 1, size(moved))/dot_product(along, moved)
+  end subroutine learn_one
 end module gfb_machine_equilibrium

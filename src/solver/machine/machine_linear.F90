@@ -8,11 +8,11 @@
 module gfb_machine_linear
   use gfb_kinds, only: wp
   use gfb_run_log, only: run_log_type
-  use gfb_shaft, only: motions
+  use gfb_machine_equilibrium, only: find_journal_coefficients
   use gfb_machine, only: machine_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_vibration_law, only: vibration_type
-  use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
+  use gfb_dynamic_response, only: dynamic_response_type, create_response, destroy_response
   use gfb_frequency_response, only: frequency_response_type
   implicit none (type)
   private
@@ -51,17 +51,16 @@ contains
     complex(wp), intent(in) :: rate !! lambda [1/s]
     complex(wp), allocatable, intent(out) :: matrix(:, :)
     logical, intent(out) :: found !! all bearings could be factorized
-    complex(wp) :: coefficient(motions, motions)
-    integer :: i, n
+    complex(wp), allocatable :: coefficient(:, :)
+    integer :: i
 
     matrix = machine%equations%dynamic_stiffness(rate, machine%speed)
-    n = machine%count
     found = .true.
     do i = 1, size(linear)
-      call find_coefficients(linear(i)%bearing, linear(i)%response, rate, coefficient, found, only_translations=n < motions)
+      call find_journal_coefficients(linear(i)%bearing, linear(i)%response, machine%journal(i), rate, coefficient, found)
       if (.not. found) return
-      associate (place => machine%journal(i)%place(:n), sign => machine%journal(i)%sign(:n))
-        matrix(place, place) = matrix(place, place) + coefficient(:n, :n)*spread(sign, 1, n)*spread(sign, 2, n)
+      associate (place => machine%journal(i)%place, sign => machine%journal(i)%sign)
+        matrix(place, place) = matrix(place, place) + coefficient*spread(sign, 1, size(sign))*spread(sign, 2, size(sign))
       end associate
     end do
   end subroutine machine_matrix

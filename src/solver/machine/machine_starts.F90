@@ -6,7 +6,6 @@
 !> eigenvalue problem, whose eigenvalues are all modes.
 module gfb_machine_starts
   use gfb_kinds, only: wp
-  use gfb_shaft, only: motions
   use gfb_shaft_basis, only: shaft_basis
   use gfb_shaft_equations, only: shaft_equations_type
   use gfb_machine, only: machine_type
@@ -76,17 +75,32 @@ contains
     real(wp), intent(in) :: highest !! frequency [rad/s]
     real(wp), allocatable :: basis(:, :), plane(:, :)
     integer, allocatable :: held(:)
-    integer :: i, m, n
+    integer :: m, n
 
-    held = [(machine%journal(i)%place(1), i=1, size(machine%journal))]
-    if (machine%count == motions) held = [held, held + 1]
+    n = 2*size(machine%shaft%z)
+    held = held_in_plane(machine, n)
     plane = shaft_basis(machine%shaft, held, highest)
-    n = size(plane, 1)
     m = size(plane, 2)
     allocate (basis(2*n, 2*m), source=0.0_wp)
     basis(:n, :m) = plane
     basis(n + 1:, m + 1:) = plane
   end function machine_basis
+
+  !> Motions of a plane of which one, or that of the other plane, is felt by a film: displacements, then slopes.
+  pure function held_in_plane(machine, n) result(held)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: n !! motions of a plane
+    integer, allocatable :: held(:)
+    integer :: i, k, of
+
+    allocate (held(0))
+    do k = 1, 0, -1
+      do i = 1, size(machine%held)
+        of = modulo(machine%held(i) - 1, n) + 1
+        if (modulo(of, 2) == k .and. all(held /= of)) held = [held, of]
+      end do
+    end do
+  end function held_in_plane
 
   !> The pair A, E of \( A x = s E x \) with \( s = \lambda/\omega_0 \) and x the shaft's motions in both planes, their rates,
   !> and the states of each bearing.
@@ -114,8 +128,8 @@ contains
     matrix(m + 1:, m + 1:) = -(few%damping + machine%speed*few%gyroscopic)/unit_of_time
     do i = 1, size(linear)
       do k = 1, size(linear(i)%model%part)
-        of = linear(i)%response%part(k)%coordinate
-        if (any(of > machine%count)) cycle
+        of = felt_by(machine, i, linear(i)%response%motion(linear(i)%response%part(k)%coordinate))
+        if (any(of == 0)) cycle
         call linear(i)%model%part(k)%realise(value, slope, right, left)
         moved = journal_rows(machine, i, basis)
         states = size(value, 1)
@@ -134,12 +148,21 @@ contains
     end do
   end subroutine assemble_pair
 
+  !> Coordinates of the shaft as places among those that a journal's film feels; 0 where it does not.
+  pure function felt_by(machine, number, coordinate) result(of)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the journal
+    integer, intent(in) :: coordinate(:)
+    integer :: of(size(coordinate)), k
+    of = [(findloc(machine%journal(number)%coordinate, coordinate(k), 1), k=1, size(coordinate))]
+  end function felt_by
+
   !> Motions of a journal over those of the basis.
-  function journal_rows(machine, number, basis) result(rows)
+  pure function journal_rows(machine, number, basis) result(rows)
     type(machine_type), intent(in) :: machine
     integer, intent(in) :: number !! of the journal
     real(wp), intent(in) :: basis(:, :) !! of all motions
-    real(wp) :: rows(motions, size(basis, 2))
+    real(wp), allocatable :: rows(:, :)
 
     associate (place => machine%journal(number)%place, sign => machine%journal(number)%sign)
       rows = spread(sign, 2, size(basis, 2))*basis(place, :)

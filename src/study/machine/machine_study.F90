@@ -20,7 +20,7 @@ module gfb_machine_study
   use gfb_bearing_builder, only: check_meshes
   use gfb_shaft, only: body_type
   use gfb_held_shaft, only: held_shaft_type, free_motions
-  use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads
+  use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads, across_at_journals
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
@@ -88,7 +88,7 @@ contains
                   text(body%polar_inertia, 4)//' kg m2')
     call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '// &
                   text(self%machine%shaft%coordinates())//' motions, of which '// &
-                  text(self%machine%count*size(self%machine%journal))//' at journals')
+                  text(size(self%machine%held))//' at journals')
     if (.not. any(abs(self%machine%force) > 0.0_wp)) call log%line('neither weight nor loads: journals stand in the middle of their sleeves')
     call bearing_loads(self%machine, load, regular)
     allocate (self%part(size(self%machine%journal)))
@@ -375,12 +375,11 @@ contains
 
     allocate (motion(0))
     do i = 1, size(self%part)
-      motion = [motion, self%machine%journal(i)%offset - self%part(i)%solution%bearing%eccentricity()]
+      motion = [motion, self%machine%journal(i)%sleeve(:ways) - self%part(i)%solution%bearing%eccentricity()]
     end do
-    if (self%machine%count == ways) return
-    call hold_at_rest(self%machine, ways, held, regular)
+    call hold_at_rest(self%machine, across_at_journals(self%machine), held, regular)
     line = free_motions(held, motion)
-    motion = [(self%machine%journal(i)%sign*line(self%machine%journal(i)%place), i=1, size(self%part))]
+    motion = line(self%machine%held)
   end function first_motions
 
   !> Writes the results.
