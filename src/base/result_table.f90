@@ -601,6 +601,10 @@ module gfb_result_table
     result_type('polar_inertia', 'kg m^2', number, machine, 'about the axis of the shaft'), &
     result_type('eccentricity_<a>_<n>', 'm', number, machine, &
       'e_<a> of bearing n, of the sleeve relative to the shaft'), &
+    result_type('eccentricity_z_<n>', 'm', number, machine, &
+      'e_z of thrust bearing n, minus its axial gap, as its file has its axes'), &
+    result_type('force_z_<n>', 'N', number, machine, &
+      'force of the film of thrust bearing n that lifts its runner'), &
     result_type('tilt_<a>_<n>', 'rad', number, machine, &
       'of the sleeve of bearing n against its journal, about <a>'), &
     result_type('torque_<a>_<n>', 'N m', number, machine, &

@@ -157,9 +157,15 @@ module gfb_plausible_values
     range_type(1.0e-4_wp, 1.0e4_wp, 'kg', 'g', 'discs%masses'), &
     range_type(1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2', 'discs%polar_inertias '// &
                'discs%transverse_inertias'), &
-    range_type(0.0_wp, 5.0e-3_wp, 'm', 'um,mm', 'bearings%offset_x bearings%offset_y'), &
+    range_type(0.0_wp, 5.0e-3_wp, 'm', 'um,mm', 'bearings%offset_x bearings%offset_y '// &
+               'bearings%offset_z'), &
     range_type(0.0_wp, 0.05_wp, 'rad', 'deg', 'bearings%misalignment_x bearings%misalignment_y'), &
-    range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'loads%forces_x loads%forces_y'), &
+    range_type(0.0_wp, 1.0e3_wp, 'kg', 'g', 'bearings%support_mass'), &
+    range_type(0.0_wp, 1.0e13_wp, 'N/m', 'N/mm', 'bearings%support_stiffness_x '// &
+               'bearings%support_stiffness_y'), &
+    range_type(0.0_wp, 1.0e8_wp, 'N s/m', 'N s/mm', 'bearings%support_damping_x '// &
+               'bearings%support_damping_y'), &
+    range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'loads%forces_x loads%forces_y machine%axial_load'), &
     range_type(0.0_wp, 1.0e4_wp, 'N m', 'N mm', 'loads%moments_x loads%moments_y'), &
     range_type(0.0_wp, 1.0e3_wp, 'm/s^2', 'mm/s^2', 'machine%gravity'), &
     range_type(0.0_wp, 1.0e7_wp, 'rad/s', 'rpm', 'dynamics%largest_frequency'), &
@@ -202,6 +208,7 @@ module gfb_plausible_values
     reason_type('bump_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('shaft%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%shaft_poissons_ratio', 'between -1 and 0.5 by its rule'), &
+    reason_type('bearings%facing', '1 or -1 by its rule'), &
     reason_type('thermal%carry_over', 'from 0 to 1 by its rule'), &
     reason_type('contact%exponent', 'bounded by its rule'), &
     reason_type('mesh%edge_refinement', 'from 1 to 100 by its rule'), &

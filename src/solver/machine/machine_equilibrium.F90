@@ -208,7 +208,7 @@ contains
     allocate (size_of(size(machine%held)), of_force(size(machine%held)))
     load = max(sum(abs(machine%force(::2))), least_load*bearing(1)%bearing%force_scale())
     do i = 1, size(bearing)
-      half = 0.5_wp*bearing(i)%bearing%pad(1)%film%width
+      half = max(0.5_wp*bearing(i)%bearing%pad(1)%film%width, bearing(i)%bearing%mesh%surface%tilt_arm())
       associate (journal => machine%journal(i))
         where (journal%coordinate <= all_translations)
           size_of(journal%at) = bearing(i)%bearing%clearance

@@ -3,14 +3,14 @@
 module gfb_machine_results
   use gfb_kinds, only: wp
   use gfb_text, only: text
-  use gfb_units, only: micrometres
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_study_cases, only: output_case_type
   use gfb_shaft, only: motions, body_type, journal_places
   use gfb_held_shaft, only: free_motions
-  use gfb_machine, only: machine_type
+  use gfb_machine, only: machine_type, journal_type, line_of_shaft
+  use gfb_bearing_rows, only: add_rows, show_rows
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type
@@ -22,8 +22,6 @@ module gfb_machine_results
   implicit none (type)
   private
   public :: add_body, add_shaft_line, add_bearing, history_row
-
-  character(len=*), parameter :: motion_names(motions) = [character(len=14) :: 'eccentricity_x', 'eccentricity_y', 'tilt_x', 'tilt_y']
 
 contains
 
@@ -50,7 +48,7 @@ contains
     integer :: k, place(motions)
 
     associate (shaft => machine%shaft)
-      line = free_motions(answer%held, answer%motion)
+      line = line_of_shaft(machine, free_motions(answer%held, answer%motion))
       allocate (table(1 + motions, size(shaft%z)))
       do k = 1, size(shaft%z)
         call journal_places(shaft, k, place, sign)
@@ -61,8 +59,9 @@ contains
   end subroutine add_shaft_line
 
   !> A bearing: its answer, a line of the log, and its fields.
-  subroutine add_bearing(number, bearing, output, log, summary, grids)
+  subroutine add_bearing(number, journal, bearing, output, log, summary, grids)
     integer, intent(in) :: number !! of the bearing
+    type(journal_type), intent(in) :: journal !! in it
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     type(output_case_type), intent(in) :: output !! what is to be written
     type(run_log_type), intent(in) :: log !! where lines go
@@ -72,8 +71,8 @@ contains
     integer :: i, before
 
     answer = bearing_answer(bearing)
-    call add_answer(number, answer, summary)
-    call show_answer(number, answer, log)
+    call add_rows(number, journal, answer, summary)
+    call show_rows(number, journal, answer, log)
     before = size(grids)
     call add_film_grid(bearing, output, grids)
     call add_foil_grids(bearing, grids)
@@ -83,8 +82,9 @@ contains
   end subroutine add_bearing
 
   !> A row of a sweep's history.
-  function history_row(speed_rpm, bearing, small) result(row)
+  function history_row(speed_rpm, machine, bearing, small) result(row)
     real(wp), intent(in) :: speed_rpm !! of the point [rpm]
+    type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(in) :: bearing(:) !! at their answers
     type(machine_motions_type), intent(in) :: small !! motions about the equilibrium
     type(history_row_type) :: row
@@ -93,43 +93,10 @@ contains
     allocate (row%quantity(0))
     call add_result(row%quantity, 'speed_rpm', speed_rpm)
     do i = 1, size(bearing)
-      call add_answer(i, bearing_answer(bearing(i)%bearing), row%quantity)
+      call add_rows(i, machine%journal(i), bearing_answer(bearing(i)%bearing), row%quantity)
     end do
     if (.not. allocated(small%mode)) return
     call add_result(row%quantity, 'growth_rate', growth_of(small))
     call add_result(row%quantity, 'whirl_frequency', frequency_of(small))
   end function history_row
-
-  !> A bearing's answer.
-  subroutine add_answer(number, answer, summary)
-    integer, intent(in) :: number !! of the bearing
-    type(bearing_answer_type), intent(in) :: answer
-    type(quantity_type), allocatable, intent(inout) :: summary(:)
-    character(len=:), allocatable :: behind
-    integer :: k
-
-    behind = '_'//text(number)
-    associate (place => answer%place([1, 2, 4, 5]))
-      do k = 1, motions
-        call add_result(summary, trim(motion_names(k))//behind, place(k))
-      end do
-    end associate
-    call add_result(summary, 'force_x'//behind, answer%force(1))
-    call add_result(summary, 'force_y'//behind, answer%force(2))
-    call add_result(summary, 'torque_x'//behind, answer%force(4))
-    call add_result(summary, 'torque_y'//behind, answer%force(5))
-    call add_result(summary, 'minimum_gap'//behind, answer%minimum_gap)
-    call add_result(summary, 'maximum_pressure'//behind, answer%maximum_pressure)
-    call add_result(summary, 'power_loss'//behind, answer%power_loss)
-  end subroutine add_answer
-
-  !> The same as a line of the log.
-  subroutine show_answer(number, answer, log)
-    integer, intent(in) :: number !! of the bearing
-    type(bearing_answer_type), intent(in) :: answer
-    type(run_log_type), intent(in) :: log
-    call log%line('bearing '//text(number)//'        film '//text(answer%minimum_gap*micrometres, 4)//' um, force ('// &
-                  text(answer%force(1), 5)//', '//text(answer%force(2), 5)//') N, tilt ('//text(answer%place(4)*1.0e6_wp, 4)// &
-                  ', '//text(answer%place(5)*1.0e6_wp, 4)//') urad, '//text(answer%power_loss, 4)//' W')
-  end subroutine show_answer
 end module gfb_machine_results

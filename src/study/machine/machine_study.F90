@@ -3,24 +3,21 @@
 module gfb_machine_study
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type, fail
+  use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
-  use gfb_scene_reading, only: read_scene
-  use gfb_analysis_row, only: analysis_equilibrium
-  use gfb_model_case, only: half_width_no, half_width_yes
   use gfb_memory_check, only: check_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
   use gfb_c_library, only: peak_memory
-  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_builder, only: check_meshes
+  use gfb_bearing_solution, only: new_solution
   use gfb_shaft, only: body_type
-  use gfb_held_shaft, only: held_shaft_type, free_motions
-  use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads, across_at_journals
+  use gfb_machine, only: machine_type, build_machine
+  use gfb_machine_parts, only: part_type, read_parts, load_parts, check_fit, first_motions
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
@@ -30,7 +27,6 @@ module gfb_machine_study
   use gfb_operation_case, only: angular_speed
   use gfb_scene_vibration, only: vibration_of
   use gfb_continuation, only: path_report_type
-  use gfb_bearing_solution, only: bearing_solution_type, new_solution
   use gfb_reasons, only: reason_type, reason_no_equilibrium
   use gfb_case_file, only: case_array_type, history_row_type
   use gfb_result_set, only: result_grid_type, write_result_set
@@ -40,18 +36,8 @@ module gfb_machine_study
   implicit none (type)
   private
 
-  integer, parameter :: ways = 2 !! translations of a journal
-  real(wp), parameter :: unlike = 0.01_wp   !! diameters that differ by more do not fit [1]
-  real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
   integer, parameter :: most_trials = 30          !! of the search for an onset
   real(wp), parameter :: onset_tolerance = 1.0e-8_wp !! of its speed, and of growth over speed [1]
-
-  !> A bearing of the machine.
-  type :: part_type
-    type(scene_type), allocatable :: scene !! of its own file, under the machine's speed and load
-    type(bearing_plan_type) :: plan
-    type(bearing_solution_type), allocatable :: solution
-  end type part_type
 
   !> The machine, and what was found of it. It stays where it is from `solve` to `discard`.
   type, extends(study_type), public :: machine_study_type
@@ -76,32 +62,26 @@ contains
     class(machine_study_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
-    real(wp), allocatable :: load(:, :)
     type(body_type) :: body
-    logical :: regular
     integer :: i
 
-    self%machine = build_machine(scene%machine, scene%unbalance%position)
+    call read_parts(scene, self%part, self%refused)
+    if (allocated(self%refused)) return
+    self%machine = build_machine(scene%machine, scene%unbalance%position, [(self%part(i)%scene%bearing%row, i=1, size(self%part))])
     body = self%machine%shaft%body()
     call log%line('shaft with discs: '//text(body%mass, 5)//' kg, centre of mass at '//text(body%centre*1.0e3_wp, 5)// &
                   ' mm, transverse inertia '//text(body%transverse_inertia, 4)//' kg m2, polar '// &
                   text(body%polar_inertia, 4)//' kg m2')
-    call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '// &
-                  text(self%machine%shaft%coordinates())//' motions, of which '// &
-                  text(size(self%machine%held))//' at journals')
+    call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '//text(size(self%machine%force))// &
+                  ' motions, of which '//text(size(self%machine%held))//' at journals')
     if (.not. any(abs(self%machine%force) > 0.0_wp)) call log%line('neither weight nor loads: journals stand in the middle of their sleeves')
-    call bearing_loads(self%machine, load, regular)
-    allocate (self%part(size(self%machine%journal)))
+    call load_parts(scene, self%machine, self%part)
     do i = 1, size(self%part)
       associate (part => self%part(i))
-        call read_part(scene, i, part, self%refused)
-        if (allocated(self%refused)) return
         call log%line('bearing '//text(i)//' at '//text(self%machine%journal(i)%position*1.0e3_wp, 5)//' mm, '// &
                       trim(scene%machine%file(i))//':')
-        part%scene%operation%load = 0.0_wp
-        if (regular) then
-          part%scene%operation%load = load(:, i)
-          call log%line('load by levers ('//text(load(1, i), 5)//', '//text(load(2, i), 5)//') N')
+        if (part%scene%bearing%row%moves_across) then
+          call log%line('load by levers ('//text(part%scene%operation%load(1), 5)//', '//text(part%scene%operation%load(2), 5)//') N')
         end if
         call plan_bearing(part%scene, log, part%plan)
         self%memory = self%memory + part%plan%memory
@@ -109,93 +89,6 @@ contains
     end do
     call check_fit(scene, self%part, log, self%refused)
   end subroutine prepare_machine
-
-  !> Warns of a shaft that is not as thick as a bearing has it.
-  !>
-  !> Fails where two bearings overlap.
-  subroutine check_fit(scene, part, log, error)
-    type(scene_type), intent(in) :: scene !! of the machine
-    type(part_type), intent(in) :: part(:) !! its bearings
-    type(run_log_type), intent(in) :: log
-    type(error_type), allocatable, intent(out) :: error
-    real(wp) :: first, last
-    integer :: i, k
-
-    associate (machine => scene%machine)
-      do i = 1, size(part)
-        do k = 1, i - 1
-          if (abs(machine%bearing_position(i) - machine%bearing_position(k)) >= &
-              0.5_wp*(part(i)%scene%bearing%length + part(k)%scene%bearing%length)) cycle
-          call fail(error, scene%file//': &bearings: positions('//text(i)//') = '//text(machine%bearing_position(i))// &
-                    ': the bearing overlaps that of positions('//text(k)//')')
-          return
-        end do
-        associate (bearing => part(i)%scene%bearing)
-          first = 0.0_wp
-          do k = 1, size(machine%length)
-            last = first + machine%length(k)
-            if (min(last, machine%bearing_position(i) + 0.5_wp*bearing%length) - &
-                max(first, machine%bearing_position(i) - 0.5_wp*bearing%length) > touches*bearing%length .and. &
-                abs(machine%outer_diameter(k) - 2.0_wp*bearing%radius) > unlike*2.0_wp*bearing%radius) then
-              call log%warning('segment '//text(k)//' of the shaft, under bearing '//text(i)//', has a diameter of '// &
-                               text(machine%outer_diameter(k))//' m, the journal in the bearing''s file one of '// &
-                               text(2.0_wp*bearing%radius)//' m')
-            end if
-            first = last
-          end do
-        end associate
-      end do
-    end associate
-  end subroutine check_fit
-
-  !> Reads the file of a bearing; speed, load and tilt are the machine's.
-  !>
-  !> Fails where the file is wrong, or is of something that cannot be a bearing of a machine.
-  subroutine read_part(scene, number, part, error)
-    type(scene_type), intent(in) :: scene !! of the machine
-    integer, intent(in) :: number !! of the bearing
-    type(part_type), intent(inout) :: part
-    type(error_type), allocatable, intent(out) :: error
-    character(len=:), allocatable :: file, why
-
-    associate (machine => scene%machine)
-      file = trim(machine%file(number))
-      if (file(:1) /= '/') file = scene%file(:index(scene%file, '/', back=.true.))//file
-      allocate (part%scene)
-      call read_scene(file, part%scene, error)
-      if (allocated(error)) return
-      why = ''
-      associate (one => part%scene)
-        if (allocated(one%machine)) then
-          why = 'it is a machine itself'
-        else if (.not. one%general%asked%has_film) then
-          why = 'it is a case of foils alone'
-        else if (.not. one%bearing%row%moves_across .or. one%bearing%row%moves_along) then
-          why = 'a machine has journal bearings so far'
-        else if (one%sweep%present) then
-          why = 'it has a &sweep: the machine is at one point'
-        else if (one%thermal%present) then
-          why = '&thermal is not carried by a machine yet'
-        else if (one%model%half_width == half_width_yes .and. machine%journal_tilts) then
-          why = "half_width = 'yes' in &model cannot tilt: leave it out, or say journal_tilts = .false. in &machine"
-        end if
-        if (why /= '') then
-          call fail(error, scene%file//': &bearings: files('//text(number)//') = '''//trim(machine%file(number))//''': '//why)
-          return
-        end if
-        one%general%asked = analysis_equilibrium
-        one%general%analysis = analysis_equilibrium
-        one%dynamics%present = .false.
-        one%capacity%limit = 0
-        one%transient%present = .false.
-        one%periodic%present = .false.
-        one%operation%speed_rpm = machine%speed_rpm
-        if (scene%sweep%present) one%operation%speed_rpm = scene%sweep%values(1)
-        one%operation%tilt = 0.0_wp
-        if (machine%journal_tilts) one%model%half_width = half_width_no
-      end associate
-    end associate
-  end subroutine read_part
 
   !> Checks, after `prepare`, whether the study can be done.
   !>
@@ -246,7 +139,7 @@ contains
     points = 1
     if (scene%sweep%present) points = size(scene%sweep%values)
     allocate (self%motions(points))
-    self%answer%motion = first_motions(self)
+    self%answer%motion = first_motions(self%machine, self%part)
     do i = 1, points
       if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
       call find_answer(self, scene, context%log, self%motions(i))
@@ -286,7 +179,7 @@ contains
     type(run_log_type), intent(in) :: log
     character(len=:), allocatable :: words
 
-    self%history = [self%history, history_row(scene%sweep%values(point), self%bearing, self%motions(point))]
+    self%history = [self%history, history_row(scene%sweep%values(point), self%machine, self%bearing, self%motions(point))]
     words = 'point '//text(point)//' of '//text(size(scene%sweep%values))//': '//text(scene%sweep%values(point))//' rpm'
     if (allocated(self%motions(point)%mode)) words = words//', growth '//text(growth_of(self%motions(point)), 4)//' 1/s'
     call log%line(words)
@@ -364,24 +257,6 @@ contains
     end do
   end subroutine find_linear
 
-  !> The journals where their bearings carry the loads by levers, tilted as the shaft bends between them under its weight.
-  function first_motions(self) result(motion)
-    class(machine_study_type), intent(in) :: self
-    real(wp), allocatable :: motion(:) !! [m], [rad]
-    type(held_shaft_type) :: held
-    real(wp), allocatable :: line(:)
-    logical :: regular
-    integer :: i
-
-    allocate (motion(0))
-    do i = 1, size(self%part)
-      motion = [motion, self%machine%journal(i)%sleeve(:ways) - self%part(i)%solution%bearing%eccentricity()]
-    end do
-    call hold_at_rest(self%machine, across_at_journals(self%machine), held, regular)
-    line = free_motions(held, motion)
-    motion = line(self%machine%held)
-  end function first_motions
-
   !> Writes the results.
   !>
   !> Fails when a file cannot be written.
@@ -405,7 +280,7 @@ contains
     if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
-      call add_bearing(i, self%part(i)%solution%bearing, scene%output, context%log, summary, grids)
+      call add_bearing(i, self%machine%journal(i), self%part(i)%solution%bearing, scene%output, context%log, summary, grids)
     end do
     if (self%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', self%onset)
     call add_result(summary, 'unknowns', self%unknowns)

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""What holds the shaft of a machine beside journal bearings with rigid sleeves: thrust bearings, one or two that face each other,
+against a rigid body on coefficients of bearings by themselves, the mirror image, `axial_play`; and supports that give way."""
+
+import copy
+import math
+
+import h5py
+import numpy
+
+from gfb_run import run_checks, run_file, solve, write_case
+
+SPEED = 20000.0
+OMEGA = SPEED*math.pi/30.0
+GAS = {"viscosity": 1.9e-5, "ambient_pressure": 1.0e5}
+JOURNAL, THRUST = "xy", "z"
+PLACES = {JOURNAL: ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y"), THRUST: ("eccentricity_z", "tilt_x", "tilt_y")}
+CLEARANCE = (20.0e-6, 25.0e-6)  # of the two journals
+SAG = 3.0e-5  # m
+RIGID = (2.0e13, 4.0e13)  # Pa: a shaft that hardly bends, and half as much
+
+
+def journal(folder, name="journal", clearance=CLEARANCE[0], **operation):
+    """The case of a journal bearing; without more at the machine's speed under some load."""
+    write_case(folder, name, {
+        "scene": {"analysis": "linear_dynamics"}, "bearing": {"radius": 15.0e-3, "length": 25.0e-3, "clearance": clearance},
+        "gas": GAS, "model": {"foil": "elastic_foundation", "foundation_stiffness": 5.0e9}, "foil_damping": {"foundation_damping": 2.0e5},
+        "mesh": {"circumferential_elements": 36, "axial_elements": 6},
+        "operation": {"speed_rpm": SPEED} | (operation or {"load": (-8.0, 0.0)}), "dynamics": {"frequency_ratios": 1.0}})
+    return f"{name}.nml"
+
+
+def thrust(folder, name="thrust", play=None, **operation):
+    """The case of a thrust bearing."""
+    return write_case(folder, name, {
+        "scene": {"analysis": "linear_dynamics"},
+        "bearing": {"kind": "thrust", "outer_radius": 30.0e-3, "inner_radius": 15.0e-3} | ({"axial_play": play} if play else {}),
+        "pads": {"count": 4, "arc": 1.3}, "ramp": {"part": 0.5, "height": 15.0e-6}, "gas": GAS,
+        "model": {"foil": "elastic_foundation", "foundation_stiffness": 2.0e10, "foundation_pressure": "local"},
+        "foil_damping": {"foundation_damping": 4.0e5}, "mesh": {"circumferential_elements": 8, "radial_elements": 5},
+        "operation": {"speed_rpm": SPEED} | (operation or {"axial_load": 20.0}), "dynamics": {"frequency_ratios": 1.0}}).name
+
+
+def machine(folder, **bearings):
+    """A shaft of 0.2 m with a disc in two unlike journal bearings, and what else is asked for."""
+    files, positions = [journal(folder), journal(folder, "wider", CLEARANCE[1])], [0.03, 0.17]
+    if "thrust" in bearings:
+        files += bearings["thrust"]
+        positions += bearings["thrust_positions"]
+    content = {
+        "scene": {"analysis": "linear_dynamics"},
+        "shaft": {"lengths": 0.2, "outer_diameters": 0.03, "youngs_modulus": 2.0e11, "poissons_ratio": 0.3, "density": 7800.0},
+        "discs": {"positions": 0.12, "masses": 0.8, "polar_inertias": 6.0e-4},
+        "bearings": {"files": files, "positions": positions}, "machine": {"speed_rpm": SPEED},
+        "loads": {"positions": 0.2, "forces_y": 3.0, "moments_x": 0.02},
+        "unbalance": {"positions": 0.12, "values": 2.0e-6, "angles": 0.3}, "dynamics": {"largest_frequency": 1.5*OMEGA}}
+    content["bearings"] |= {key: value for key, value in bearings.items() if not key.startswith("thrust")}
+    if "thrust" in bearings:
+        content["machine"]["axial_load"] = 20.0
+    return content
+
+
+def place(answer, number, kind):
+    """Where a bearing's sleeve is."""
+    return numpy.array([answer[f"{name}_{number}"] for name in PLACES[kind]])
+
+
+def array(answer, name):
+    """An array of the result file."""
+    with h5py.File(f"{answer.stem}.h5", "r") as file:
+        return file[name][...]
+
+
+def modes(answer):
+    """Growth and frequency of all modes."""
+    return array(answer, "dynamics/mode_growth_rate").ravel() + 1j*array(answer, "dynamics/mode_frequency").ravel()
+
+
+def farthest(first, second):
+    """The largest distance of a mode of the first to the nearest of the second, over its size."""
+    return max(numpy.abs(second - one).min()/abs(one) for one in first)
+
+
+def alone(folder, number, answer, kind):
+    """A bearing by itself where it is in the machine, held: its answer and Z at the speed, real and imaginary part."""
+    where = place(answer, number, kind)
+    if kind == THRUST:
+        file = thrust(folder, "held", axial_gap=-where[0], tilt=tuple(where[1:]))
+    else:
+        file = journal(folder, "held", CLEARANCE[number - 1], eccentricity=tuple(where[:2]), tilt=tuple(where[2:]))
+    one = run_file(folder/file, folder)
+    size = len(where)
+    stiffness, damping = (array(one, f"dynamics/{name}").reshape(size, size) for name in ("stiffness", "damping"))
+    return one, stiffness + 1j*OMEGA*damping
+
+
+def rigid_response(folder, answer, content, kinds, supports):
+    """Response to unbalance of a rigid body, x, y, theta_x, theta_y of its centre of mass and z, on the bearings' own
+    coefficients; sleeves move on their supports."""
+    mass, polar, across = (answer[name] for name in ("mass", "polar_inertia", "transverse_inertia"))
+    size = 5 + 2*len(supports)
+    dynamic = numpy.zeros((size, size), dtype=complex)
+    dynamic[:5, :5] = -OMEGA**2*numpy.diag((mass, mass, across, across, mass))
+    dynamic[2, 3] += 1j*OMEGA**2*polar
+    dynamic[3, 2] -= 1j*OMEGA**2*polar
+    for number, (kind, position) in enumerate(zip(kinds, content["bearings"]["positions"], strict=True), 1):
+        arm = position - answer["centre_of_mass"]
+        moved = numpy.zeros((5, size))  # of the journal, x y z theta_x theta_y
+        moved[0, [0, 3]] = 1.0, arm
+        moved[1, [1, 2]] = 1.0, -arm
+        moved[2, 4] = moved[3, 2] = moved[4, 3] = 1.0
+        if number in supports:
+            own = 5 + 2*list(supports).index(number) + numpy.arange(2)
+            moved[[0, 1], own] = -1.0
+            heavy, stiff, damps = supports[number]
+            dynamic[own, own] += -OMEGA**2*heavy + 1j*OMEGA*damps + stiff
+        moved = moved[[0, 1, 3, 4]] if kind == JOURNAL else moved[[2, 3, 4]]
+        dynamic += moved.T @ alone(folder, number, answer, kind)[1] @ moved
+    push = numpy.zeros(size, dtype=complex)
+    unbalance = content["unbalance"]
+    one = unbalance["values"]*OMEGA**2*numpy.exp(1j*unbalance["angles"])
+    arm = unbalance["positions"] - answer["centre_of_mass"]
+    push[:4] = one, -1j*one, 1j*arm*one, arm*one
+    moved = numpy.linalg.solve(dynamic, push)
+    return {position: (moved[0] + (position - answer["centre_of_mass"])*moved[3], moved[1] - (position - answer["centre_of_mass"])*moved[2])
+            for position in content["bearings"]["positions"]}
+
+
+def differences(folder, content, kinds, supports):
+    """The machine's response to unbalance against that of a rigid body, at each bearing, x and y."""
+    answer = solve(folder, "rigid", content)
+    expected = rigid_response(folder, answer, content, kinds, supports)
+    table = array(answer, "dynamics/response")
+    rows = [table[numpy.abs(table[:, 0] - position).argmin()] for position in expected]
+    ours = numpy.array([row[[1, 3]]*numpy.exp(1j*row[[2, 4]]) for row in rows])
+    return ours/numpy.array(list(expected.values())) - 1.0
+
+
+def check_response(checks, folder, words, content, kinds, supports):
+    """The machine's response to unbalance is that of a rigid body, where its bending, over two moduli, is taken off."""
+    both = []
+    for modulus in RIGID:
+        content = copy.deepcopy(content)
+        content["shaft"]["youngs_modulus"] = modulus
+        both.append(differences(folder, content, kinds, supports))
+    checks.below(f"{words}: response", numpy.abs(both[1]).max(), 1.0e-3)
+    checks.below(f"{words}: response without bending", numpy.abs(2.0*both[1] - both[0]).max(), 1.0e-7)
+
+
+def check_thrust(checks, folder):
+    """One thrust bearing: its answer is that of the bearing by itself, forces and moments balance, the shaft answers as a rigid
+    body, and the machine seen from its other end is the same."""
+    content = machine(folder, thrust=[thrust(folder)], thrust_positions=[0.01])
+    answer = solve(folder, "base", content)
+    one, _ = alone(folder, 3, answer, THRUST)
+    for name, own in (("force_z", "axial_force"), ("torque_x", "torque_x"), ("torque_y", "torque_y"), ("power_loss", "power_loss")):
+        checks.below(f"alone: {name}", answer[f"{name}_3"]/one[own] - 1.0, 1.0e-9)
+    checks.below("axial balance", answer["force_z_3"]/20.0 - 1.0, 1.0e-10)
+    balance(checks, answer, content)
+    without = solve(folder, "without", {**content, "bearings": {key: value[:2] for key, value in content["bearings"].items()},
+                                        "machine": {"speed_rpm": SPEED}})
+    checks.that("its tilt stiffness changes modes by more than 1 %", farthest(modes(without), modes(answer)) > 0.01)
+    check_response(checks, folder, "thrust bearing", content, (JOURNAL, JOURNAL, THRUST), {})
+    mirrored = copy.deepcopy(content)
+    for group in ("discs", "unbalance", "loads"):
+        mirrored[group]["positions"] = 0.2 - content[group]["positions"]
+    mirrored["loads"]["moments_x"] *= -1.0
+    mirrored["bearings"] |= {"positions": [0.2 - one for one in content["bearings"]["positions"]], "facing": [1, 1, -1]}
+    mirrored["machine"]["axial_load"] = -20.0
+    other = solve(folder, "mirrored", mirrored)
+    checks.below("mirrored: thrust bearing", numpy.abs(place(other, 3, THRUST)/place(answer, 3, THRUST) - 1.0).max(), 1.0e-9)
+    checks.below("mirrored: journal", numpy.abs(place(other, 1, JOURNAL)/place(answer, 1, JOURNAL) - (1.0, 1.0, -1.0, -1.0)).max(), 1.0e-9)
+    checks.below("mirrored: modes", farthest(modes(other), modes(answer)), 1.0e-9)
+
+
+def balance(checks, answer, content):
+    """Forces and moments of all films carry weight and loads."""
+    moment, force = numpy.zeros(2), numpy.zeros(2)
+    for number, position in enumerate(content["bearings"]["positions"], 1):
+        arm = position - answer["centre_of_mass"]
+        on_shaft = -numpy.array([answer[f"force_{axis}_{number}"] for axis in "xy"]) if number < 3 else numpy.zeros(2)
+        force += on_shaft
+        moment += (answer[f"torque_x_{number}"] - arm*on_shaft[1], answer[f"torque_y_{number}"] + arm*on_shaft[0])
+    loads = content["loads"]
+    arm = loads["positions"] - answer["centre_of_mass"]
+    weight = 9.81*answer["mass"]
+    checks.below("forces", numpy.abs(force + (-weight, loads["forces_y"])).max()/weight, 1.0e-10)
+    checks.below("moments", numpy.abs(moment + (loads["moments_x"] - arm*loads["forces_y"], 0.0)).max()/(0.1*weight), 1.0e-9)
+
+
+def check_two_sides(checks, folder):
+    """Two thrust bearings that face each other are one with `axial_play`; they share the runner's motions."""
+    play = 30.0e-6
+    double = machine(folder, thrust=[thrust(folder, "double", play)], thrust_positions=[0.01])
+    single = machine(folder, thrust=[thrust(folder), thrust(folder)], thrust_positions=[0.01, 0.01], facing=[1, 1, 1, -1],
+                     offset_z=[0.0, 0.0, 0.0, play])
+    answers = [solve(folder, "sides", content) for content in (double, single)]
+    checks.below("two sides: place", numpy.abs(place(answers[1], 3, THRUST)/place(answers[0], 3, THRUST) - 1.0).max(), 1.0e-9)
+    checks.below("two sides: force", (answers[1]["force_z_3"] - answers[1]["force_z_4"])/answers[0]["force_z_3"] - 1.0, 1.0e-9)
+    checks.below("two sides: modes", farthest(modes(answers[1]), modes(answers[0])), 1.0e-9)
+
+
+def check_supports(checks, folder):
+    """Sleeves on springs: very stiff ones are rigid; equal sags move the whole; the shaft answers as a rigid body in sleeves that
+    move."""
+    content = machine(folder)
+    base = solve(folder, "base", content)
+    stiff = copy.deepcopy(content)
+    stiff["bearings"] |= {"support_stiffness_x": 1.0e16, "support_stiffness_y": 1.0e16, "support_mass": 0.1}
+    answer = solve(folder, "stiff", stiff)
+    checks.below("stiff supports: journal", numpy.abs(place(answer, 1, JOURNAL)/place(base, 1, JOURNAL) - 1.0).max(), 1.0e-8)
+    checks.below("stiff supports: modes", farthest(modes(answer), modes(base)), 1.0e-8)
+    even = {group: copy.deepcopy(content[group]) for group in ("shaft", "discs", "bearings", "machine")} | {
+        "scene": {"analysis": "equilibrium"}}
+    base = solve(folder, "free", even)
+    even["bearings"] |= {"support_stiffness_x": [abs(base[f"force_x_{i}"])/SAG for i in (1, 2)], "support_stiffness_y": 1.0e16}
+    answer = solve(folder, "even", even)
+    checks.below("supports that sag alike: journal", numpy.abs(place(answer, 2, JOURNAL)/place(base, 2, JOURNAL) - 1.0).max(), 1.0e-9)
+    sag = array(answer, "shaft/line")[:, 1] - array(base, "shaft/line")[:, 1]
+    checks.below("supports that sag alike: the shaft", numpy.abs(sag/-SAG - 1.0).max(), 1.0e-9)
+    soft = copy.deepcopy(content)
+    soft["bearings"] |= {"support_mass": [0.0, 0.3], "support_stiffness_x": [0.0, 2.0e7], "support_stiffness_y": [0.0, 3.0e7],
+                         "support_damping_x": [0.0, 4.0e3], "support_damping_y": [0.0, 2.0e3]}
+    check_response(checks, folder, "support", soft, (JOURNAL, JOURNAL),
+                   {2: (0.3, numpy.array((2.0e7, 3.0e7)), numpy.array((4.0e3, 2.0e3)))})
+
+
+def check_wrong(checks, folder):
+    """Mistakes are named with their rule."""
+    content = machine(folder, thrust=[thrust(folder)], thrust_positions=[0.01])
+    for words, group, key, value in (
+            ("a thrust bearing needs axial_load", "machine", "axial_load", None),
+            ("it must press the runner on the pads of bearing 3, which face +z", "machine", "axial_load", -1.0),
+            ("must be 1 or -1", "bearings", "facing", [1, 1, 0.5]),
+            ("needs support_stiffness_x and", "bearings", "support_mass", 0.1),
+            ("must be given where support_stiffness_x is", "bearings", "support_stiffness_x", 1.0e7),
+            ("no journal bearing holds the shaft across", "bearings", "files", ["thrust.nml"]*3)):
+        wrong = copy.deepcopy(content)
+        wrong[group][key] = value
+        if value is None:
+            del wrong[group][key]
+        checks.that(words, words in solve(folder, "wrong", wrong, status=1).complaint)
+    soft = copy.deepcopy(content)
+    soft["bearings"] |= {"support_stiffness_x": 1.0e7, "support_stiffness_y": 1.0e7}
+    checks.that("a thrust bearing on a support", "must be 0 there" in solve(folder, "wrong", soft, status=1).complaint)
+    facing = copy.deepcopy(content)
+    facing["bearings"] |= {"files": content["bearings"]["files"] + ["thrust.nml"], "positions": [0.03, 0.17, 0.01, 0.01],
+                           "facing": [1, 1, 1, -1]}
+    checks.that("no play", "leaves 0 m in all for the gaps" in solve(folder, "wrong", facing, status=1).complaint)
+    without = machine(folder)
+    without["machine"]["axial_load"] = 1.0
+    checks.that("nothing carries axial_load", "no thrust bearing" in solve(folder, "wrong", without, status=1).complaint)
+
+
+if __name__ == "__main__":
+    run_checks((check_thrust, check_two_sides, check_supports, check_wrong), ())
