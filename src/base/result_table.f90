@@ -293,16 +293,16 @@ module gfb_result_table
     result_type('modulus_ratio_bumps_<n>', '1', number, bearing, 'the same of pad n')]
 
   type(result_type), parameter :: transients(*) = [ &
-    result_type('time', 's', number, transient, &
+    result_type('time', 's', number, transient + machine, &
       'computed; eccentricity, forces, film and foils are of its end'), &
-    result_type('turns', '1', number, transient, 'of the shaft in that time'), &
-    result_type('time_steps', '1', total, transient, 'that were taken'), &
+    result_type('turns', '1', number, transient + machine, 'of the shaft in that time'), &
+    result_type('time_steps', '1', total, transient + machine, 'that were taken'), &
     result_type('orbit_<a>', 'm', number, transient + periodic, 'extent in a turn or period'), &
     result_type('orbit_<a>_<n>', 'm', number, transient, 'extent in one of two bearings'), &
     result_type('orbit_tilt_<a>', 'rad', number, transient, 'extent of a tilt in a turn'), &
-    result_type('minimum_gap_over_time', 'm', number, transient + periodic, 'smallest one'), &
-    result_type('ending', '', word, transient + periodic, 'why it ended before its end'), &
-    result_type('not_reached', '', word, transient + periodic, &
+    result_type('minimum_gap_over_time', 'm', number, transient + periodic + machine, 'smallest one'), &
+    result_type('ending', '', word, transient + periodic + machine, 'why it ended before its end'), &
+    result_type('not_reached', '', word, transient + periodic + machine, &
       'what was asked for and not reached', &
       'what was asked for and not reached: turns, a speed, a steady orbit, the end of a '// &
       'branch; `converged` is then false and the exit status 2'), &
@@ -610,7 +610,13 @@ module gfb_result_table
     result_type('torque_<a>_<n>', 'N m', number, machine, &
       'torque of the film of bearing n on the shaft about <a>'), &
     result_type('maximum_pressure_<n>', 'Pa', number, machine, 'largest pressure of bearing n'), &
-    result_type('power_loss_<n>', 'W', number, machine, 'of bearing n')]
+    result_type('power_loss_<n>', 'W', number, machine, 'of bearing n'), &
+    result_type('orbit_<a>_bearing_<n>', 'm', number, machine, 'extent at bearing n, last turns', &
+      'over time: extent of the motion of the shaft''s axis in the last five turns, at bearing n'), &
+    result_type('orbit_<a>_disc_<n>', 'm', number, machine, 'extent at disc n, last turns', &
+      'the same at disc n'), &
+    result_type('orbit_<a>_station_<n>', 'm', number, machine, 'extent at station n, last turns', &
+      'the same at station n of `&machine`')]
 
   type(result_type), parameter :: ensembles(*) = [ &
     result_type('member', '', word, ensemble, 'name of the case file', &

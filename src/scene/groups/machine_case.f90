@@ -129,8 +129,8 @@ contains
     integer :: n
 
     refused = unless(analysis%is_machine .or. .not. analysis%is_known(), 'has no use with '// &
-                     "analysis = '"//trim(analysis%word)//"': a machine has 'equilibrium' and "// &
-                     "'linear_dynamics'")
+                     "analysis = '"//trim(analysis%word)//"': a machine has 'equilibrium', "// &
+                     "'linear_dynamics' and 'transient'")
     call keys%start_group(machine_group, optional=.true., misplaced=refused)
     call keys%real_list_key('lengths', machine%length, longest_list, 'm', &
                             'lengths of the segments of the shaft, from its first end, z = 0, on', &

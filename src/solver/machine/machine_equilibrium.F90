@@ -28,7 +28,7 @@ module gfb_machine_equilibrium
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
   implicit none (type)
   private
-  public :: find_machine_equilibrium, journal_force, move_journal, find_journal_coefficients
+  public :: find_machine_equilibrium, journal_force, move_journal, find_journal_coefficients, set_sizes
 
   integer, parameter :: ways = 2 !! translations of a journal across its axis
   integer, parameter :: most_steps = 60 !! of Newton's method
@@ -199,7 +199,7 @@ contains
   !> How large a motion of each journal and a force on it are.
   subroutine set_sizes(machine, bearing, size_of, of_force)
     type(machine_type), intent(in) :: machine
-    type(machine_bearing_type), intent(in) :: bearing(:)
+    type(machine_bearing_type), intent(in) :: bearing(:) !! its own
     real(wp), allocatable, intent(out) :: size_of(:)  !! clearance, and that over half the width [m], [rad]
     real(wp), allocatable, intent(out) :: of_force(:) !! load, and that times half the width [N], [N m]
     real(wp) :: load, half

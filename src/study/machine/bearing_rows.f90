@@ -11,12 +11,12 @@ module gfb_bearing_rows
   use gfb_machine, only: journal_type
   implicit none (type, external)
   private
-  public :: add_rows, show_rows
+  public :: add_rows, show_rows, is_written
 
   !> In the order of the shaft's coordinates.
-  character(len=*), parameter :: places(shaft_coordinates) = [character(len=14) :: &
+  character(len=*), parameter, public :: places(shaft_coordinates) = [character(len=14) :: &
     'eccentricity_x', 'eccentricity_y', 'eccentricity_z', 'tilt_x', 'tilt_y']
-  character(len=*), parameter :: forces(shaft_coordinates) = [character(len=8) :: &
+  character(len=*), parameter, public :: forces(shaft_coordinates) = [character(len=8) :: &
     'force_x', 'force_y', 'force_z', 'torque_x', 'torque_y']
   integer, parameter :: ways = 2, first_tilt = 4
   real(wp), parameter :: microradians = 1.0e6_wp !! in a radian
@@ -46,8 +46,8 @@ contains
 
   !> Whether a coordinate is one of the bearing's: tilts are, of all, though they may be held at 0.
   pure logical function is_written(journal, coordinate)
-    type(journal_type), intent(in) :: journal
-    integer, intent(in) :: coordinate
+    type(journal_type), intent(in) :: journal !! in the bearing
+    integer, intent(in) :: coordinate !! see `shaft_coordinates`
     is_written = coordinate >= first_tilt .or. any(journal%coordinate == coordinate)
   end function is_written
 

@@ -21,7 +21,7 @@ module gfb_machine_results
   use gfb_foil_grid, only: add_foil_grids
   implicit none (type)
   private
-  public :: add_body, add_shaft_line, add_bearing, history_row
+  public :: add_body, add_shaft_line, add_bearing, add_surfaces, history_row
 
 contains
 
@@ -68,18 +68,28 @@ contains
     type(quantity_type), allocatable, intent(inout) :: summary(:) !! gets the answer
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! get its surfaces
     type(bearing_answer_type) :: answer
-    integer :: i, before
 
     answer = bearing_answer(bearing)
     call add_rows(number, journal, answer, summary)
     call show_rows(number, journal, answer, log)
+    call add_surfaces(number, bearing, output, grids)
+  end subroutine add_bearing
+
+  !> The surfaces of a bearing, with its number in their names.
+  subroutine add_surfaces(number, bearing, output, grids)
+    integer, intent(in) :: number !! of the bearing
+    type(bearing_system_type), intent(in) :: bearing !! at a state
+    type(output_case_type), intent(in) :: output !! what is to be written
+    type(result_grid_type), allocatable, intent(inout) :: grids(:) !! get its surfaces
+    integer :: i, before
+
     before = size(grids)
     call add_film_grid(bearing, output, grids)
     call add_foil_grids(bearing, grids)
     do i = before + 1, size(grids)
       grids(i)%name = 'bearing_'//text(number)//'.'//grids(i)%name
     end do
-  end subroutine add_bearing
+  end subroutine add_surfaces
 
   !> A row of a sweep's history.
   function history_row(speed_rpm, machine, bearing, small) result(row)

@@ -19,6 +19,7 @@ module gfb_machine_study
   use gfb_machine, only: machine_type, build_machine
   use gfb_machine_parts, only: part_type, read_parts, load_parts, check_fit, first_motions
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
+  use gfb_machine_transient, only: machine_transient_type, part_archive
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_motions, only: machine_motions_type, find_motions, add_motions, growth_of
   use gfb_machine_results, only: add_body, add_shaft_line, add_bearing, history_row
@@ -29,6 +30,7 @@ module gfb_machine_study
   use gfb_continuation, only: path_report_type
   use gfb_reasons, only: reason_type, reason_no_equilibrium
   use gfb_case_file, only: case_array_type, history_row_type
+  use gfb_grid_series, only: grid_series_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_outcome, only: add_outcome
   use gfb_run_context, only: run_context_type
@@ -48,6 +50,7 @@ module gfb_machine_study
     type(machine_equilibrium_type) :: answer
     type(machine_motions_type), allocatable :: motions(:) !! small ones about each answer
     type(history_row_type), allocatable :: history(:)     !! of a sweep
+    type(machine_transient_type), allocatable :: time !! its way, where that is asked for
     real(wp) :: onset = 0.0_wp !! speed from which on it whirls; 0: none was found [rpm]
     type(error_type), allocatable :: refused !! what is wrong with the files of the bearings
   contains
@@ -124,8 +127,15 @@ contains
     do i = 1, size(self%part)
       associate (part => self%part(i))
         call new_solution(part%solution)
-        call context%log%line('bearing '//text(i)//' alone:')
+        if (.not. context%restart%continues) call context%log%line('bearing '//text(i)//' alone:')
         call part%solution%set_up(part%scene, part%plan, context)
+        if (context%restart%continues) then
+          part%scene%transient%present = .true. ! heat is frozen
+          call part%solution%resume(error, part_archive(i))
+          if (allocated(error)) return
+          self%bearing(i) = machine_bearing_type(part%solution%bearing, part%solution%newton, part%solution%path)
+          cycle
+        end if
         call part%solution%start(0, report, error)
         if (allocated(error)) return
         if (.not. report%converged()) then
@@ -139,14 +149,19 @@ contains
     points = 1
     if (scene%sweep%present) points = size(scene%sweep%values)
     allocate (self%motions(points))
-    self%answer%motion = first_motions(self%machine, self%part)
-    do i = 1, points
+    if (.not. context%restart%continues) self%answer%motion = first_motions(self%machine, self%part)
+    do i = 1, merge(0, points, context%restart%continues)
       if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
       call find_answer(self, scene, context%log, self%motions(i))
       if (self%reason%is_given()) exit
       if (scene%sweep%present) call record_point(self, scene, i, context%log)
       if (i > 1) call look_for_onset(self, scene, i, context%log)
     end do
+    if (scene%transient%present .and. .not. self%reason%is_given()) then
+      allocate (self%time)
+      call self%time%run(scene, self%part, self%machine, self%answer, self%bearing, context, self%reason, error)
+      if (allocated(error)) return
+    end if
     call count_work(self)
     self%converged = .not. self%reason%is_given()
     if (.not. self%converged) call context%log%tell(self%reason%words())
@@ -268,6 +283,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type), allocatable :: grids(:)
+    type(grid_series_type), pointer :: series ! none where nothing moves
     real(wp) :: memory(1)
     integer :: i
 
@@ -275,6 +291,7 @@ contains
     call add_result(summary, 'analysis', trim(scene%general%asked%word))
     call add_result(summary, 'converged', self%converged)
     allocate (arrays(0), grids(0))
+    nullify (series)
     call add_body(self%machine, summary)
     if (self%converged) call add_shaft_line(self%machine, self%answer, arrays)
     if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
@@ -283,6 +300,11 @@ contains
       call add_bearing(i, self%machine%journal(i), self%part(i)%solution%bearing, scene%output, context%log, summary, grids)
     end do
     if (self%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', self%onset)
+    if (allocated(self%time)) then
+      series => self%time%series
+      summary = [summary, self%time%results()]
+      call self%time%history%add_arrays(arrays)
+    end if
     call add_result(summary, 'unknowns', self%unknowns)
     call add_result(summary, 'newton_iterations', self%iterations)
     call add_result(summary, 'factorizations', self%factorizations)
@@ -292,7 +314,7 @@ contains
     call add_result(summary, 'peak_memory', memory(1))
     call add_outcome(summary, self%converged, self%reason)
     call write_result_set(scene, context%folder, self%converged, context%origin(), summary, self%history, arrays, grids, &
-                          context%csv, context%log, error)
+                          context%csv, context%log, error, series=series)
   end subroutine write_machine
 
   !> Frees what the solvers hold.
