@@ -8,12 +8,11 @@ module gfb_machine_results
   use gfb_result_names, only: add_result
   use gfb_study_cases, only: output_case_type
   use gfb_shaft, only: motions, body_type, journal_places
-  use gfb_held_shaft, only: free_motions
-  use gfb_machine, only: machine_type, journal_type, line_of_shaft
+  use gfb_machine, only: machine_type, journal_type
   use gfb_bearing_rows, only: add_rows, show_rows
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
-  use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type
+  use gfb_machine_equilibrium, only: machine_bearing_type
   use gfb_machine_motions, only: machine_motions_type, growth_of, frequency_of
   use gfb_case_file, only: case_array_type, history_row_type, add_array
   use gfb_result_set, only: result_grid_type
@@ -38,17 +37,16 @@ contains
     call add_result(summary, 'polar_inertia', body%polar_inertia)
   end subroutine add_body
 
-  !> The static line of the shaft.
-  subroutine add_shaft_line(machine, answer, arrays)
+  !> The line of the shaft, node by node.
+  subroutine add_shaft_line(machine, line, arrays)
     type(machine_type), intent(in) :: machine
-    type(machine_equilibrium_type), intent(in) :: answer !! of it, converged
+    real(wp), intent(in) :: line(:) !! motions of its shaft across the axis [m], [1]
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
-    real(wp), allocatable :: line(:), table(:, :)
+    real(wp), allocatable :: table(:, :)
     real(wp) :: sign(motions)
     integer :: k, place(motions)
 
     associate (shaft => machine%shaft)
-      line = line_of_shaft(machine, free_motions(answer%held, answer%motion))
       allocate (table(1 + motions, size(shaft%z)))
       do k = 1, size(shaft%z)
         call journal_places(shaft, k, place, sign)

@@ -16,8 +16,10 @@ module gfb_machine_study
   use gfb_bearing_builder, only: check_meshes
   use gfb_bearing_solution, only: new_solution
   use gfb_shaft, only: body_type
-  use gfb_machine, only: machine_type, build_machine
+  use gfb_held_shaft, only: free_motions
+  use gfb_machine, only: machine_type, build_machine, line_of_shaft
   use gfb_machine_parts, only: part_type, read_parts, load_parts, check_fit, first_motions
+  use gfb_shaft_results, only: add_shaft_results, add_bearing_places
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_transient, only: machine_transient_type, part_archive
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
@@ -293,7 +295,7 @@ contains
     allocate (arrays(0), grids(0))
     nullify (series)
     call add_body(self%machine, summary)
-    if (self%converged) call add_shaft_line(self%machine, self%answer, arrays)
+    if (self%converged) call add_shaft(self, scene, arrays, grids)
     if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
@@ -316,6 +318,27 @@ contains
     call write_result_set(scene, context%folder, self%converged, context%origin(), summary, self%history, arrays, grids, &
                           context%csv, context%log, error, series=series)
   end subroutine write_machine
+
+  !> What is along the shaft, and around it: in its equilibrium, or where the time has led.
+  subroutine add_shaft(self, scene, arrays, grids)
+    class(machine_study_type), intent(in) :: self
+    type(scene_type), intent(in) :: scene !! of the machine
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(result_grid_type), allocatable, intent(inout) :: grids(:)
+    real(wp), allocatable :: line(:)
+    integer :: i
+
+    if (allocated(self%time)) then
+      line = line_of_shaft(self%machine, self%time%march%motion(:, 1))
+    else
+      line = line_of_shaft(self%machine, free_motions(self%answer%held, self%answer%motion))
+    end if
+    call add_shaft_line(self%machine, line, arrays)
+    call add_shaft_results(scene%machine, self%machine, line, arrays, grids)
+    call add_bearing_places(self%machine%journal%position, [(self%part(i)%scene%bearing%length, i=1, size(self%part))], &
+                            [(self%part(i)%scene%bearing%radius, i=1, size(self%part))], &
+                            [(self%part(i)%scene%bearing%clearance, i=1, size(self%part))], arrays)
+  end subroutine add_shaft
 
   !> Frees what the solvers hold.
   subroutine discard_machine(self)
