@@ -17,9 +17,10 @@ from gfb.report.answer import Results  # noqa: E402
 from gfb.report.glance import glance  # noqa: E402
 from gfb.report.main import read_run, thinnest_pad, write_page  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
+from gfb.report.margin import Margin  # noqa: E402
 from gfb.report.sketch import case_sketch, sketch  # noqa: E402
 from gfb.report.thinnest import Place, place_of_thinnest  # noqa: E402
-from gfb.report.verdict import Margin, margins_of, not_computed, plain, sentence  # noqa: E402
+from gfb.report.verdict import margins_of, not_computed, plain, sentence  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 from slow import slow  # noqa: E402
 

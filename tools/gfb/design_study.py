@@ -27,7 +27,8 @@ from gfb.design_work import Part, Progress, compute_all, duration, tilt_words
 from gfb.report.answer import LAST_STATE, Results, carried_by, film_words, why_none
 from gfb.report.main import read_run, write_page
 from gfb.report.thinnest import SAME
-from gfb.report.verdict import NO_ANSWER, ONSET, Margin, compared, margins_of, not_computed, sentence
+from gfb.report.margin import NO_ANSWER, ONSET, Margin, compared
+from gfb.report.verdict import margins_of, not_computed, sentence
 from gfb.results import read_history
 from gfb.running import Result
 from gfb.tool import RunError, draw_into_files, parser_of, say

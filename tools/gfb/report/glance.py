@@ -4,7 +4,8 @@ is measured against."""
 import math
 
 from gfb.report.answer import KELVIN, THINNEST, Results, direction, place_words
-from gfb.report.verdict import FILM, ONSET, all_margins
+from gfb.report.margin import ONSET
+from gfb.report.verdict import FILM, all_margins
 
 
 def glance(summary, case, place=None, frequency=None):

@@ -10,56 +10,11 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from gfb.report.answer import KELVIN, Results, carried_by, film_words, place_words
+from gfb.report.margin import ONSET, Margin, compared
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
 AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
-NO_ANSWER = "no answer"  # of a part of a study
-ONSET = "onset_speed_rpm"
 FILM = "film_margin"
-SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known", "missing": "✗ no answer"}
-
-
-@dataclasses.dataclass
-class Margin:
-    """One thing that may limit a bearing."""
-
-    subject: str                   # in a word or two
-    value: str                     # how it is, in words
-    limit: str = ""                # against what, in words; empty where none is known
-    factor: float | None = None    # how many times the limit is kept, below 1 broken; None: it is, or is not
-    is_broken: bool = False
-    where: str = ""                # part of a study
-    result: str = ""               # its name, where it is one result that is compared
-
-    @property
-    def state(self) -> str:
-        """Which of SIGNS."""
-        return "missing" if self.limit == NO_ANSWER else "broken" if self.is_broken else "kept" if self.limit else "unknown"
-
-    @property
-    def sign(self) -> str:
-        """The state in words, which need no colour."""
-        return SIGNS[self.state]
-
-    @property
-    def times(self) -> str:
-        """The margin in words."""
-        return f"{self.factor:.3g} times" if self.factor is not None else ""
-
-    @property
-    def against(self) -> str:
-        """The limit and the margin in words."""
-        return ": ".join(filter(None, (self.limit, self.times)))
-
-    def words(self) -> str:
-        """All of it."""
-        needed = "" if self.factor is None else f": {self.factor:.3g} {'of' if self.is_broken else 'times'} what is needed"
-        return f"{self.value}{f' ({self.where})' if self.where else ''}, {self.limit}{needed}"
-
-
-def compared(subject: str, value: str, limit: str, factor: float, where: str = "", result: str = "") -> Margin:
-    """What is kept by a factor of 1 and more."""
-    return Margin(subject, value, limit, factor, not factor >= 1.0, where, result)
 
 
 def margins_of(results: Results, smallest_gap: float | None = None) -> list[Margin]:
