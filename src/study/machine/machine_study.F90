@@ -337,7 +337,8 @@ contains
     call add_shaft_results(scene%machine, self%machine, line, arrays, grids)
     call add_bearing_places(self%machine%journal%position, [(self%part(i)%scene%bearing%length, i=1, size(self%part))], &
                             [(self%part(i)%scene%bearing%radius, i=1, size(self%part))], &
-                            [(self%part(i)%scene%bearing%clearance, i=1, size(self%part))], arrays)
+                            [(self%part(i)%scene%bearing%clearance, i=1, size(self%part))], &
+                            [(self%part(i)%scene%capacity%smallest_gap, i=1, size(self%part))], arrays)
   end subroutine add_shaft
 
   !> Frees what the solvers hold.

@@ -57,17 +57,18 @@ contains
   end subroutine add_shaft_results
 
   !> Adds where the bearings are and how large.
-  subroutine add_bearing_places(position, length, radius, clearance, arrays)
+  subroutine add_bearing_places(position, length, radius, clearance, smallest_gap, arrays)
     real(wp), intent(in) :: position(:) !! z of their middles [m]
     real(wp), intent(in) :: length(:)   !! along z [m]
     real(wp), intent(in) :: radius(:), clearance(:) !! [m]
+    real(wp), intent(in) :: smallest_gap(:) !! that each is to have; 0: none is given [m]
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! get the table
     integer :: i
 
     call add_array(arrays, '/shaft/bearings', 'm', 'a row a bearing: z of its middle, length, '// &
-                   'radius, clearance', reshape([(position(i), length(i), radius(i), &
-                                                  clearance(i), i=1, size(position))], &
-                                                [4, size(position)]))
+                   'radius, clearance, film that its file wants or 0', &
+                   reshape([(position(i), length(i), radius(i), clearance(i), smallest_gap(i), &
+                             i=1, size(position))], [5, size(position)]))
   end subroutine add_bearing_places
 
   !> Both ends of each element.

@@ -4,14 +4,17 @@ is measured against."""
 import math
 
 from gfb.report.answer import KELVIN, THINNEST, Results, direction, place_words
+from gfb.report.machine import is_machine, machine_glance
 from gfb.report.margin import ONSET
 from gfb.report.verdict import FILM, all_margins
 
 
-def glance(summary, case, place=None, frequency=None):
+def glance(summary, case, place=None, frequency=None, machine=None):
     """(what, how much, margin or verdict, whether that is a bad one) of one run; place: where its film is thinnest; frequency: of its
-    stiffness and damping [rad/s]."""
-    results = Results(summary, case, place, frequency)
+    stiffness and damping [rad/s]; machine: tables of a machine."""
+    results = Results(summary, case, place, frequency, machine)
+    if is_machine(case):
+        return list(machine_glance(results))
     return [row for question in (film, centre, load, limits, losses, balance, vibrations, rotor, foils, heat) for row in question(results)]
 
 

@@ -20,6 +20,7 @@ class Margin:
     is_broken: bool = False
     where: str = ""                # part of a study
     result: str = ""               # its name, where it is one result that is compared
+    body: str = "bearing"          # what it limits
 
     @property
     def state(self) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from gfb.report.answer import KELVIN, Results, carried_by, film_words, place_words
+from gfb.report.machine import is_machine, left_open, machine_margins
 from gfb.report.margin import ONSET, Margin, compared
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
@@ -25,6 +26,8 @@ def margins_of(results: Results, smallest_gap: float | None = None) -> list[Marg
 
 def all_margins(results: Results, smallest_gap: float | None = None) -> list[Margin]:
     """The same, of a sweep those of its last point beside those of all points."""
+    if is_machine(results.case):
+        return machine_margins(results)
     found = list(film(results, smallest_gap))
     for question in (load, lift_off, whirl, foils, misalignment, temperature, stress):
         found += question(results)
@@ -101,9 +104,11 @@ def foils(results: Results) -> Iterator[Margin]:
 
 def not_computed(results: Results, margins: Sequence[Margin]) -> list[str]:
     """What may limit such a bearing, too, and was not asked for."""
+    there = {one.subject for one in margins}
+    if is_machine(results.case):
+        return left_open(results, there)
     if results.value("minimum_gap") is None:
         return []
-    there = {one.subject for one in margins}
     apply = {"whirl": results.value("axial_gap") is None, "misalignment": True, "temperature": True,
              "stress": results.case.get("model%foil") in ("shell", "beam", "plate")}
     return [subject for subject, applies in apply.items() if applies and subject not in there]
@@ -152,7 +157,7 @@ def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequenc
     words = []
     if broken:
         first, others = broken[0], list(dict.fromkeys(one.subject for one in broken if one.subject != broken[0].subject))
-        words.append(f"{first.subject.capitalize()} limits this bearing: {first.words()}." + (f" Broken, too: {', '.join(others)}." if others else ""))
+        words.append(f"{first.subject.capitalize()} limits this {first.body}: {first.words()}." + (f" Broken, too: {', '.join(others)}." if others else ""))
     elif kept:
         near = min(kept, key=lambda one: math.inf if one.factor is None else one.factor)
         words.append(f"All known limits are kept; {near.subject} is nearest to its own: {near.words()}." if len(kept) > 1

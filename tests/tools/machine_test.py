@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""Machines in tools/plot and tools/report: what stands in the pictures, on the page, and what limits a machine."""
+
+import math
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
+os.environ["MPLBACKEND"] = "Agg"
+sys.path.insert(0, str(PROJECT/"tools"))
+import gfb  # noqa: E402
+from gfb.plot import machine as plot_machine  # noqa: E402
+from gfb.plot import machine_motions as plot_motions  # noqa: E402
+from gfb.plot.machine_motions import pyplot  # noqa: E402
+from gfb.report.answer import Results  # noqa: E402
+from gfb.report.machine import MachineTables, draw_machine, largest_radius, machine_picture  # noqa: E402
+from gfb.report.main import read_run, write_page  # noqa: E402
+from gfb.report.verdict import margins_of, not_computed, sentence  # noqa: E402
+
+INPUTS = PROJECT/"inputs/machines"
+MESH = {"mesh%circumferential_elements": 32, "mesh%axial_elements": 4}
+LEFT, RIGHT = 9.0e-6, 2.0e-5  # films that the bearings' files want [m]
+
+
+def write_small(folder):
+    """The machine of the manual on coarse meshes; its case."""
+    for side, wanted in (("left", LEFT), ("right", RIGHT)):
+        bearing = gfb.Case.read(INPUTS/f"rotor_{side}.nml")
+        bearing.update(MESH)
+        bearing["capacity%smallest_gap"] = wanted
+        bearing.write(folder/f"rotor_{side}.nml")
+    (folder/"rotor.nml").write_text((INPUTS/"rotor.nml").read_text(encoding="utf-8"), encoding="utf-8")
+    return gfb.Case.read(folder/"rotor.nml")
+
+
+class MachineTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        place = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(place.cleanup)
+        cls.folder = pathlib.Path(place.name)
+        case = write_small(cls.folder)
+        cls.alone = gfb.run(case, cls.folder, "alone")
+        case["sweep%parameter"], case["sweep%values"] = "speed_rpm", (8000.0, 12000.0, 15000.0)
+        cls.sweep = gfb.run(case, cls.folder, "sweep")
+
+    def setUp(self):
+        self.addCleanup(pyplot.close, "all")
+
+    def drawn(self, result, drawing):
+        """A picture of a result."""
+        path = pathlib.Path(f"{result.stem}.h5")
+        with h5py.File(path, "r") as file:
+            return drawing(path, file)
+
+    def test_the_machine_is_to_scale_with_its_line(self):
+        above, line, moments, _ = self.drawn(self.alone, plot_machine.draw).axes
+        boxes = [patch.get_bbox().bounds for patch in above.patches]
+        self.assertIn((40.0, -12.5, 320.0, 25.0), [tuple(round(one, 9) for one in box) for box in boxes])
+        self.assertEqual(sum(patch.get_hatch() is not None for patch in above.patches), 4)  # sleeves of two bearings
+        z, x = line.lines[0].get_data()
+        for number, place in ((1, 20.0), (2, 380.0)):
+            self.assertAlmostEqual(float(numpy.interp(place, z, x)), -1.0e6*self.alone[f"eccentricity_x_{number}"], places=6)
+        largest = moments.lines[0].get_data()[1]
+        self.assertGreater(largest.max(), 10.0*largest[[0, -1]].max())
+
+    def test_modes_in_space_have_their_numbers(self):
+        figure = self.drawn(self.alone, plot_motions.draw_shapes)
+        first = figure.axes[0].get_title()
+        self.assertIn(f"{self.alone['whirl_frequency']/(2.0*math.pi):.4g} Hz", first)
+        self.assertIn("forward", first)
+        with h5py.File(f"{self.alone.stem}.h5", "r") as file:
+            self.assertEqual(len(figure.axes), min(6, len(file["dynamics/mode_shape"])))
+
+    def test_campbell_response_and_ellipses(self):
+        figure = self.drawn(self.sweep, plot_motions.draw_campbell)
+        labels = figure.axes[0].get_legend_handles_labels()[1]
+        self.assertIn(f"onset {self.sweep['onset_speed_rpm']:,.0f} rpm", labels)
+        self.assertTrue(any(one.startswith("meets the speed: ") for one in labels))
+        figure = self.drawn(self.sweep, plot_motions.draw_response)
+        self.assertEqual(len([one for one in figure.axes[0].lines if len(one.get_xdata()) == 3]), 6)  # x and y at two bearings and a disc
+        figure = self.drawn(self.alone, plot_motions.draw_response)
+        self.assertEqual([chart.get_title().split("\n")[0] for chart in figure.axes], ["bearing 1", "bearing 2", "disc"])
+
+    def test_critical_speeds_are_those_of_closed_forms(self):
+        """A disc on a stiff shaft in its middle: sqrt(2 k/m); a stiff spring: the shaft held at both ends."""
+        with h5py.File(f"{self.alone.stem}.h5", "r") as file:
+            mass, stiffness, polar = (file[f"shaft/{name}"][...] for name in ("mass", "stiffness", "polar_inertia"))
+            whole, speed = mass[::2, ::2].sum(), float(file["summary/mass"][()])
+            z = file["shaft/line"][:, 0]
+        self.assertAlmostEqual(whole, speed, places=9)
+        nodes = [int(numpy.abs(z - one).argmin()) for one in (0.02, 0.38)]
+        weak = plot_motions.critical_speeds(mass, stiffness, polar, nodes, 10.0)[0]
+        rigid = [numpy.ones(len(z)), z - 0.2]
+        body = numpy.zeros((2, 2))
+        springs = numpy.array([[20.0, 10.0*(0.02 + 0.38 - 0.4)], [0.0, 10.0*2.0*0.18**2]])
+        for i, one in enumerate(rigid):
+            for k, other in enumerate(rigid):
+                left, right = (numpy.zeros(2*len(z)) for _ in range(2))
+                left[::2], right[::2] = one, other
+                left[1::2], right[1::2] = float(i), float(k)
+                body[i, k] = left @ (mass - polar) @ right
+        stiff = numpy.linalg.eigvals(numpy.linalg.solve(body, springs)).real
+        self.assertAlmostEqual(weak/math.sqrt(stiff.min()), 1.0, places=4)
+        held = plot_motions.critical_speeds(mass, stiffness, polar, nodes, 1.0e13)[0]
+        free = [i for i in range(2*len(z)) if i not in [2*node for node in nodes]]
+        inner = numpy.linalg.solve(stiffness[numpy.ix_(free, free)], (mass - polar)[numpy.ix_(free, free)])
+        self.assertAlmostEqual(held*math.sqrt(numpy.linalg.eigvals(inner).real.max()), 1.0, places=4)
+        self.drawn(self.alone, plot_motions.draw_critical)
+
+    def test_the_longer_half_axis(self):
+        ellipse = numpy.array([[0.0, 3.0, 0.0, 2.0, -0.5*math.pi], [0.0, 1.0, 0.7, 1.0, 0.7]])
+        self.assertAlmostEqual(largest_radius(ellipse)[0], 3.0)
+        self.assertAlmostEqual(largest_radius(ellipse)[1], math.sqrt(2.0))
+
+    def test_a_page_says_which_bearing_limits(self):
+        run = read_run(self.alone.stem, None, pictures=False)
+        gap = 1.0e6*self.alone["minimum_gap_2"]
+        self.assertIn("limits this machine", run["verdict"])
+        margins = {one.subject: one for one in run["margins"]}
+        self.assertEqual(margins["film of bearing 1"].state, "kept")
+        self.assertEqual(margins["film of bearing 2"].state, "broken")
+        self.assertAlmostEqual(margins["film of bearing 2"].factor, gap/20.0, places=5)
+        self.assertEqual(margins["whirl"].is_broken, self.alone["growth_rate"] > 0.0)
+        rows = {words: value for words, value, *_ in run["glance"]}
+        self.assertEqual(rows["power loss of all bearings"], f"{self.alone['power_loss_1'] + self.alone['power_loss_2']:.4g} W")
+        self.assertIn("temperature", run["open_questions"])
+        page = write_page([run], self.folder/"page.html").read_text(encoding="utf-8")
+        self.assertIn("the machine to scale", page)
+
+    def test_the_sweep_names_its_onset(self):
+        self.assertIn(f"onset of whirl at {self.sweep['onset_speed_rpm']:,.0f} rpm", " ".join(one.value for one in read_run(
+            self.sweep.stem, None, pictures=False)["margins"]))
+
+    def test_unbalance_beyond_a_third_of_the_film_is_said(self):
+        case = gfb.Case.read(INPUTS/"rotor.nml")
+        summary = {name: {"value": value, "unit": "m", "meaning": ""} for name, value in (("minimum_gap_1", 9.0e-6), ("minimum_gap_2", 1.0e-5))}
+        tables = MachineTables(numpy.array([[0.02, 0.04, 0.02, 3.0e-5, 0.0]]*2), numpy.array([2.0e-6, 5.0e-6]), 1.0e6)
+        results = Results(summary, case, machine=tables)
+        one, = (margin for margin in margins_of(results) if margin.subject == "unbalance")
+        self.assertTrue(one.is_broken)
+        self.assertAlmostEqual(one.factor, 2.0/3.0)
+        self.assertIn("bearing 2, 0.5 of its film", sentence(margins_of(results)))
+        self.assertEqual(not_computed(results, margins_of(results)), ["whirl", "temperature"])
+
+    def test_the_sketch_of_a_machine_is_to_scale(self):
+        case = gfb.Case.read(INPUTS/"rotor.nml")
+        shapes = draw_machine(case).shapes
+        sides = []
+        for look, _, path in shapes:
+            if look == "shaft":
+                points = [tuple(map(float, one.split(","))) for one in path.removeprefix("M").removesuffix(" Z").split(" L")]
+                sides.append((points[1][0] - points[0][0], points[0][1] - points[2][1]))
+        self.assertAlmostEqual(sides[1][0]/sides[0][0], 8.0, places=1)
+        self.assertAlmostEqual(sides[0][1]/sides[1][1], 38.1/25.0, places=1)
+        self.assertEqual(sum(look == "pad" for look, *_ in shapes), 4)
+        case["shaft%lengths"] = "long"
+        self.assertIsNone(machine_picture(case))
+
+
+if __name__ == "__main__":
+    unittest.main()
