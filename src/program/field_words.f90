@@ -64,6 +64,11 @@ module gfb_field_words
       'stability', 'self-excited vibration below the speed: from which mass or speed on it grows', &
       'rotor%mass sweep%parameter', 'critical_mass whirl_ratio onset_speed_rpm growth_rate', &
       'linear_dynamics', 'rotor', 'stability'), &
+    field_word_type('machine flexible_rotor flexible_shaft rotor_bearing_system', &
+      'a shaft that bends, with discs, in several bearings, each a case file of its own: '// &
+      'equilibrium, modes, unbalance', 'shaft%lengths discs%masses bearings%files '// &
+      'machine%speed_rpm unbalance%values', 'mass growth_rate whirl_frequency '// &
+      'onset_speed_rpm', 'machine', '', 'machine'), &
     field_word_type('critical_speed natural_frequency campbell rotor_mode', &
       'frequency and damping of the rotor on this bearing; of natural modes of a foil, '// &
       "analysis = 'modes'", 'rotor%mass dynamics%frequency_ratios', &
