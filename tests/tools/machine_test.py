@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Machines in tools/plot and tools/report: what stands in the pictures, on the page, and what limits a machine."""
+"""Machines in Python, tools/plot and tools/report: bearings' files, what stands in the pictures, on the page, and what limits a machine."""
 
 import math
 import os
@@ -15,12 +15,15 @@ PROJECT = pathlib.Path(os.environ["GFB_SOURCE"])
 os.environ["MPLBACKEND"] = "Agg"
 sys.path.insert(0, str(PROJECT/"tools"))
 import gfb  # noqa: E402
+from gfb.bearing_files import names_of, renamed, with_whole_names, write_copy  # noqa: E402
+from gfb.members import find_member, run_member  # noqa: E402
 from gfb.plot import machine as plot_machine  # noqa: E402
 from gfb.plot import machine_motions as plot_motions  # noqa: E402
 from gfb.plot.machine_motions import pyplot  # noqa: E402
+from gfb.program import find_program  # noqa: E402
 from gfb.report.answer import Results  # noqa: E402
 from gfb.report.machine import MachineTables, draw_machine, largest_radius, machine_picture  # noqa: E402
-from gfb.report.main import read_run, write_page  # noqa: E402
+from gfb.report.main import needs_of, read_run, write_page  # noqa: E402
 from gfb.report.verdict import margins_of, not_computed, sentence  # noqa: E402
 
 INPUTS = PROJECT/"inputs/machines"
@@ -162,6 +165,89 @@ class MachineTest(unittest.TestCase):
         self.assertEqual(sum(look == "pad" for look, *_ in shapes), 4)
         case["shaft%lengths"] = "long"
         self.assertIsNone(machine_picture(case))
+
+    def test_the_page_has_the_bearings_files_and_what_the_machine_needs(self):
+        run = read_run(self.alone.stem, None, pictures=False)
+        self.assertEqual([gfb.Case.parse(text)["bearing%clearance"] for text in run["bearing_files"]], [31.8e-6, 28.0e-6])
+        self.assertIn("film mesh: 32 x 4 elements", needs_of(run["case_file"], None, run["bearing_files"]))
+
+
+class FilesTest(unittest.TestCase):
+    """The files of bearings go where the machine goes."""
+
+    TEXT = "&bearings files = 'a.nml', 2*'sub/b''.nml' ! of three\n  positions = 0.1, 0.2, 0.3 /\n&machine speed_rpm = 1.0 /\n"
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.folder = pathlib.Path(place.name)
+
+    def rigid(self):
+        """The template's machine on a coarse mesh and rigid bearings."""
+        case = gfb.Case.template("machine")
+        for group in ("unbalance", "dynamics"):
+            del case.groups[group]
+        case["scene%analysis"], case["machine%journal_tilts"] = "equilibrium", False
+        for number in (1, 2):
+            bearing = case.bearing(number)
+            bearing["model%foil"], bearing["mesh%circumferential_elements"], bearing["mesh%axial_elements"] = "rigid", 32, 4
+            for group in ("top_foil", "bump_foil", "contact"):
+                del bearing.groups[group]
+        return case
+
+    def test_names_of_files(self):
+        self.assertEqual(names_of(self.TEXT), ("a.nml", "sub/b'.nml", "sub/b'.nml"))
+        self.assertEqual(names_of("&scene files = 'a' /"), ())
+        new = renamed(self.TEXT, ("x", "y", "z"))
+        self.assertEqual(names_of(new), ("x", "y", "z"))
+        self.assertEqual(new.replace("'x', 'y', 'z'", ""), self.TEXT.replace("'a.nml', 2*'sub/b''.nml'", ""))
+        self.assertEqual(names_of(with_whole_names(self.TEXT, self.folder))[0], str(self.folder.resolve()/"a.nml"))
+
+    def test_a_copy_has_its_bearings(self):
+        (self.folder/"sub").mkdir()
+        for name in ("a.nml", "sub/b'.nml"):
+            (self.folder/name).write_text(f"&scene title = \"{name}\" /\n", encoding="utf-8")
+        (self.folder/"there").mkdir()
+        path = write_copy(self.TEXT, self.folder, self.folder/"there/new.nml")
+        self.assertEqual(names_of(path.read_text(encoding="utf-8")), tuple(f"new.bearing_{number}.nml" for number in (1, 2, 3)))
+        self.assertIn("sub/b'", (self.folder/"there/new.bearing_3.nml").read_text(encoding="utf-8"))
+
+    def test_bearings_may_be_cases(self):
+        case = self.rigid()
+        self.assertEqual(case["bearing_1%bearing%clearance"], 31.8e-6)
+        case["bearing_2%bearing%clearance"] = 40.0e-6
+        self.assertEqual([case[f"bearing_{number}%bearing%clearance"] for number in (1, 2)], [31.8e-6, 40.0e-6])
+        self.assertTrue("bearing_2%gas%viscosity" in case and "bearing_3%gas%viscosity" not in case)
+        self.assertEqual(case, case.copy())
+        other = case.copy()
+        other["bearing_1%gas%viscosity"] = 3.0e-5
+        self.assertNotEqual(case, other)
+        with self.assertRaises(KeyError):
+            case.bearing(3)
+        self.assertIn("is in order", case.check())
+        case["bearing_1%bearing%length"] = -1.0
+        with self.assertRaisesRegex(gfb.CaseError, "bearing_1.nml.*length"):
+            case.check()
+        case["bearing_1%bearing%length"] = 0.0381
+        answer = gfb.run(case, self.folder, "mine")
+        self.assertGreater(answer["minimum_gap_2"], 0.0)
+        again = gfb.Case.read(self.folder/"mine.nml")
+        self.assertEqual(again["bearing_2%bearing%clearance"], 40.0e-6)
+        self.assertEqual(gfb.run(again, self.folder, "again")["minimum_gap_2"], answer["minimum_gap_2"])
+        both = gfb.study(case, {"bearing_1%bearing%clearance": [31.8e-6, 36.0e-6]}, self.folder/"study")
+        self.assertEqual(float(both["minimum_gap_1"][0]), answer["minimum_gap_1"])
+        self.assertNotEqual(float(both["minimum_gap_1"][1]), answer["minimum_gap_1"])
+
+    def test_a_changed_bearing_is_computed_again(self):
+        stem, program = self.folder/"one", find_program()
+        self.rigid().write(self.folder/"machine.nml")
+        case = gfb.Case.read(self.folder/"machine.nml")
+        run_member(case, stem, program)
+        self.assertIsNotNone(find_member(case, stem, program))
+        bearing = case.bearing(2)
+        bearing["bearing%clearance"] = 35.0e-6
+        bearing.write(self.folder/"machine.bearing_2.nml")
+        self.assertIsNone(find_member(case, stem, program))
 
 
 if __name__ == "__main__":

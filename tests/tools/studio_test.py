@@ -254,6 +254,22 @@ class Places(InFolder):
         self.assertEqual(place.new_run("small", SMALL).name, "small.run5")
         self.assertEqual([path.name for path in self.outside.iterdir() if path.is_file()], ["secret.nml"])
 
+    def test_a_machine_takes_its_bearings_along(self):
+        """Those of the folder alone: into the folder of its run, and for the check by their whole names."""
+        place = Folder(self.folder)
+        text = "&bearings files = 'small.nml', 'small.nml' positions = 0.1, 0.2 /\n"
+        path = place.new_run("mine", text)
+        self.assertEqual(sorted(one.name for one in path.iterdir()), ["mine.bearing_1.nml", "mine.nml"])
+        self.assertEqual((path/"mine.bearing_1.nml").read_text(encoding="utf-8"), SMALL)
+        self.assertEqual((path/"mine.nml").read_text(encoding="utf-8"), text.replace("small", "mine.bearing_1"))
+        self.assertEqual(place.whole(text), text.replace("small.nml", str(place.path/"small.nml")))
+        (self.folder/"link.nml").symlink_to(self.outside/"secret.nml")
+        for name in ("../secret.nml", str(self.outside/"secret.nml"), "link.nml", "none.nml"):
+            for way in (place.whole, lambda words: place.new_run("other", words)):
+                with self.assertRaises(Refused, msg=name):
+                    way(text.replace("small.nml", name))
+        self.assertFalse((self.folder/"other.run1").exists())
+
     def test_only_files_are_opened_and_written(self):
         """A pipe is not waited for, what is too large is not read, and no link is followed: neither to read nor to write."""
         place, secret = Folder(self.folder), self.outside/"secret.nml"

@@ -6,7 +6,7 @@ module gfb_machine_study
   use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type
+  use gfb_quantity, only: quantity_type, quantity_word
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
   use gfb_memory_check, only: check_memory
@@ -316,8 +316,23 @@ contains
     call add_result(summary, 'peak_memory', memory(1))
     call add_outcome(summary, self%converged, self%reason)
     call write_result_set(scene, context%folder, self%converged, context%origin(), summary, self%history, arrays, grids, &
-                          context%csv, context%log, error, series=series)
+                          context%csv, context%log, error, series=series, parts=files_of(self%part))
   end subroutine write_machine
+
+  !> The case files of the bearings, so that a result has all that it is of.
+  function files_of(part) result(file)
+    type(part_type), intent(in) :: part(:)
+    type(quantity_type), allocatable :: file(:)
+    integer :: i
+
+    allocate (file(size(part)))
+    do i = 1, size(part)
+      file(i)%name = 'bearing_'//text(i)
+      file(i)%meaning = 'the case file of the bearing as it was read'
+      file(i)%kind = quantity_word
+      file(i)%word = part(i)%scene%verbatim
+    end do
+  end function files_of
 
   !> What is along the shaft, and around it: in its equilibrium, or where the time has led.
   subroutine add_shaft(self, scene, arrays, grids)

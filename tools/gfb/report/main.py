@@ -17,6 +17,7 @@ import tempfile
 import jinja2
 import numpy
 
+from gfb.bearing_files import names_of, renamed
 from gfb.case import Case
 from gfb.files import fresh
 from gfb.heat import HEATED, balance
@@ -114,6 +115,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         points = len(table[heads[0][0]]) if heads else 0
         swept = {name: float(data[points - 1]) for name, data in table.items()} if points else {}
         case_file = text_of(file["scene/case_file"][()])
+        bearings = [text_of(file[f"scene/bearing_{number}"][()]) for number in range(1, MOST_ROWS) if f"scene/bearing_{number}" in file]
         used = Case.parse(text_of(file["scene/used"][()]))
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
         machine = read_tables(file)
@@ -137,7 +139,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
     return about | {
         "verdict": sentence(margins, why, about["open_questions"]), "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
         "converged": converged, "ended": why, "heads": heads, "rows": rows if points > 1 else [], "left_out": max(0, points - MOST_ROWS),
-        "case_file": case_file, "used": used, "origin": origin, "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
+        "case_file": case_file, "bearing_files": bearings, "used": used, "origin": origin, "needs": needs_of(case_file, gfb, bearings) if pictures else "", "pictures": drawings}
 
 
 def swept_keys(case, last):
@@ -174,10 +176,15 @@ def number(value):
     return "" if value != value else f"{value:.6g}"
 
 
-def needs_of(case_file, gfb):
-    """What gfb --check says of the scene, on this machine."""
+def needs_of(case_file, gfb, bearings=()):
+    """What gfb --check says of the scene, on this machine; bearings: texts of the files that a machine names."""
     try:
-        done = call([find_program(gfb), "--check", "-"], SECONDS, text=case_file)
+        with tempfile.TemporaryDirectory() as folder:
+            names = [f"bearing_{number}.nml" for number in range(1, len(bearings) + 1)]
+            for name, text in zip(names, bearings):
+                pathlib.Path(folder, name).write_text(text, encoding="utf-8")
+            done = call([find_program(gfb), "--check", "-"], SECONDS, folder=folder if bearings else None,
+                        text=renamed(case_file, names) if len(names_of(case_file)) == len(names) else case_file)
     except (FileNotFoundError, subprocess.TimeoutExpired) as error:
         return f"not known: {error}"
     return (done.log + done.complaint).strip()

@@ -13,7 +13,7 @@ from gfb.look import HEADER
 from gfb.namelist import namelist_value
 from gfb.report.main import PAGE, svg_of
 from gfb.report.sketch import case_sketch
-from gfb.studio.checking import check, without_use
+from gfb.studio.checking import Judged, Message, check, without_use
 from gfb.studio.form import Form
 from gfb.studio.keys import read_keys
 from gfb.studio.results import ResultsView
@@ -248,11 +248,18 @@ class Tab:
             self.draw(case)
         except CaseError:
             case = None  # the program says what is wrong with it
-        judged, no_use = await asyncio.gather(check(self.gfb, self.text), without_use(self.gfb, self.text))
+        judged, no_use = await asyncio.gather(self.judge(self.text), without_use(self.gfb, self.text))
         if change == self.changes:
             self.judged = dataclasses.replace(judged, messages=self.form.explain(judged.messages, case))
             self.show_judged(self.judged)
             self.form.show_uses(no_use)
+
+    async def judge(self, text):
+        """Has the program check a text; the files of a machine's bearings are those of the folder."""
+        try:
+            return await check(self.gfb, self.folder.whole(text))
+        except Refused as error:
+            return Judged((Message(str(error), group="bearings", key="files"),), "")
 
     def draw(self, case):
         """The sketch follows the case; half a number leaves the last one."""
@@ -284,7 +291,7 @@ class Tab:
     async def run(self):
         """Runs the case as it stands in the text."""
         text, name = self.text, self.name.value
-        if not (await check(self.gfb, text)).is_right:
+        if not (await self.judge(text)).is_right:
             return complain("the case has mistakes: they stand above the form")
         try:
             await self.runs.start(name, text)
