@@ -135,8 +135,17 @@ module gfb_result_table
     result_type('film_margin', '1', number, bearing, &
       'smallest film, over time where the shaft moves, over smallest_gap; below 1 too thin', &
       'with `smallest_gap` of `&capacity` where no limit is looked for: `minimum_gap` over it, '// &
-      'of a shaft that moves `minimum_gap_over_time`; below 1 the film is thinner than wanted', &
+      'of a shaft that moves `minimum_gap_over_time`, of a sweep its worst point; below 1 the '// &
+      'film is thinner than wanted', nodal=.true.), &
+    result_type('temperature_margin', '1', number, bearing, &
+      'rise up to highest_temperature over that of film and top foil; below 1 too hot', &
+      'with `highest_temperature` of `&capacity`: how far it is above `ambient_temperature`, '// &
+      'over how far film or top foil are at most, of a sweep at its worst point; below 1 too hot', &
       nodal=.true.), &
+    result_type('stress_margin', '1', number, bearing, &
+      'largest_stress over the largest of the foils; below 1 too much', &
+      'with `largest_stress` of `&capacity`: it over the largest of the foils, of a sweep at '// &
+      'its worst point; below 1 the stress is too large', nodal=.true.), &
     result_type('minimum_gap_<n>', 'm', number, bearing + machine, &
       'smallest film thickness over pad n; of a machine of bearing n', &
       'of several pads: smallest film thickness over each', nodal=.true.), &

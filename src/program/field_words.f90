@@ -44,9 +44,11 @@ module gfb_field_words
       'running_clearance running_play energy_imbalance', 'equilibrium', 'thermal', 'heat'), &
     field_word_type('margin safety_factor load_margin', &
       'a limit over what the bearing is asked for: of load, speed or tilt; of the film over '// &
-      'the smallest one wanted; and of stability, the stiffness of the mode nearest to a change', &
-      'capacity%smallest_gap capacity%contact_part', &
-      'film_margin load_capacity lift_off_speed_rpm misalignment_allowance stability_margin', &
+      'the smallest one wanted, of the rise of temperature and of the stress that are allowed; '// &
+      'and of stability, the stiffness of the mode nearest to a change', &
+      'capacity%smallest_gap capacity%highest_temperature capacity%largest_stress', &
+      'film_margin temperature_margin stress_margin load_capacity lift_off_speed_rpm '// &
+      'misalignment_allowance stability_margin', &
       'load_capacity', '', 'capacity'), &
     field_word_type('load_capacity capacity', &
       'the largest load that leaves the smallest film', 'capacity%smallest_gap', &

@@ -130,6 +130,8 @@ module gfb_plausible_values
                'model%strip_foundation_stiffness'), &
     range_type(1.0e5_wp, 1.0e10_wp, 'N/m^2', 'N/mm^2', 'model%crest_stiffness'), &
     range_type(1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm', 'capacity%smallest_gap'), &
+    range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'capacity%highest_temperature'), &
+    range_type(1.0e6_wp, 5.0e9_wp, 'Pa', 'MPa,GPa', 'capacity%largest_stress'), &
     range_type(0.0_wp, 1.0e-4_wp, 'm', 'mm,um', 'solver%touch_down_gap'), &
     range_type(0.0_wp, 1.0e-2_wp, '1', '%', 'solver%residual_tolerance solver%step_tolerance'), &
     range_type(0.0_wp, 1.0_wp, '1', '%', 'solver%smallest_load_step'), &

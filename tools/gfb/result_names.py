@@ -18,6 +18,8 @@ NumberName = Literal[
     "power_loss",
     "minimum_gap",
     "film_margin",
+    "temperature_margin",
+    "stress_margin",
     "minimum_gap_midplane",
     "minimum_gap_edge",
     "maximum_pressure",

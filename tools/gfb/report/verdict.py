@@ -15,7 +15,8 @@ from gfb.report.margin import ONSET, Margin, compared
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
 AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
-FILM = "film_margin"
+FILM, HEAT, STRESS = "film_margin", "temperature_margin", "stress_margin"
+WORST = "at the worst point"  # of a sweep
 
 
 def margins_of(results: Results, smallest_gap: float | None = None) -> list[Margin]:
@@ -35,10 +36,15 @@ def all_margins(results: Results, smallest_gap: float | None = None) -> list[Mar
 
 
 def at_last_point(margins: list[Margin]) -> list[Margin]:
-    """Those of a sweep: an onset is of all points, and stands for the whirl of the last one, which may lie beyond the case's speed."""
+    """Those of a sweep: what gfb compared itself is of its worst point; an onset is of all points, and stands for the whirl of the last one, which may lie beyond the case's speed."""
     onset = [one for one in margins if one.result == ONSET]
     others = [one for one in margins if one not in onset and not (onset and one.subject == "whirl")]
-    return [*onset, *(dataclasses.replace(one, where="at the last point") for one in others)]
+    return [*onset, *(dataclasses.replace(one, where=one.where or "at the last point") for one in others)]
+
+
+def worst_factor(results: Results, name: str) -> float | None:
+    """A margin that gfb found at the worst point of a sweep; None where there is no sweep, or no such margin."""
+    return results.value(name) if "sweep" in results.case.groups else None
 
 
 def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
@@ -50,7 +56,10 @@ def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
     words = film_words(gap, place_words(results) if over_time is None else "")
     clearance, touch_down = results.key("bearing%clearance", 0.0) or 0.0, results.key("solver%touch_down_gap", 0.0) or 0.0
     given = smallest_gap or results.key("capacity%smallest_gap")
-    if given and given > 0.0:
+    factor = None if smallest_gap else worst_factor(results, FILM)
+    if given and factor is not None:
+        yield compared("film", film_words(factor*given), f"{1.0e6*given:.3g} um are wanted", factor, WORST, FILM)
+    elif given and given > 0.0:
         yield compared("film", words, f"{1.0e6*given:.3g} um are wanted", gap/given, result=FILM)
     elif clearance > 0.0 and touch_down > OWN_TOUCH_DOWN*clearance:
         yield compared("film", words, f"below {1.0e6*touch_down:.3g} um it touches down", gap/touch_down)
@@ -122,17 +131,39 @@ def misalignment(results: Results) -> Iterator[Margin]:
 
 
 def temperature(results: Results) -> Iterator[Margin]:
-    """How hot the film is; no case says how hot it may be."""
-    hottest = results.value("maximum_film_temperature")
-    if hottest is not None:
-        yield Margin("temperature", f"hottest film {hottest - KELVIN:.4g} °C")
+    """How hot film and top foil are, against what the case allows: the factor is that of the rise over the gas around."""
+    film = results.value("maximum_film_temperature")
+    if film is None:
+        return
+    limit, ambient = results.key("capacity%highest_temperature"), results.key("thermal%ambient_temperature", 20.0 + KELVIN) or 0.0
+    if limit is None:
+        yield Margin("temperature", f"hottest film {film - KELVIN:.4g} °C")
+        return
+    hottest = max(film, results.value("maximum_top_foil_temperature") or film)
+    factor = worst_factor(results, HEAT)
+    where = "" if factor is None else WORST
+    if factor is not None:
+        hottest = ambient + (limit - ambient)/factor
+    words, allowed = f"film and top foil at most {hottest - KELVIN:.4g} °C", f"{limit - KELVIN:.4g} °C are allowed"
+    if hottest > ambient:
+        yield compared("temperature", words, allowed, (limit - ambient)/(hottest - ambient), where, HEAT)
+    else:
+        yield Margin("temperature", words, allowed, where=where, result=HEAT)
 
 
 def stress(results: Results) -> Iterator[Margin]:
-    """The largest stress; no key has a strength."""
+    """The largest stress, against what the case allows."""
     most = [value for value in map(results.value, ("maximum_top_foil_stress", "maximum_bump_foil_stress")) if value is not None]
-    if most:
-        yield Margin("stress", f"largest stress {1.0e-6*max(most):.4g} MPa")
+    if not most:
+        return
+    largest, limit, factor = max(most), results.key("capacity%largest_stress"), worst_factor(results, STRESS)
+    if limit and factor:
+        largest = limit/factor
+    words = f"largest stress {1.0e-6*largest:.4g} MPa"
+    if limit and largest > 0.0:
+        yield compared("stress", words, f"{1.0e-6*limit:.4g} MPa are allowed", limit/largest, WORST if factor else "", STRESS)
+    else:
+        yield Margin("stress", words)
 
 
 # --- the sentence ---
