@@ -309,8 +309,10 @@ module gfb_result_table
     result_type('orbit_<a>', 'm', number, transient + periodic, 'extent in a turn or period'), &
     result_type('orbit_<a>_<n>', 'm', number, transient, 'extent in one of two bearings'), &
     result_type('orbit_tilt_<a>', 'rad', number, transient, 'extent of a tilt in a turn'), &
-    result_type('minimum_gap_over_time', 'm', number, transient + periodic + machine, 'smallest one'), &
-    result_type('ending', '', word, transient + periodic + machine, 'why it ended before its end'), &
+    result_type('minimum_gap_over_time', 'm', number, transient + periodic + machine, &
+      'smallest one'), &
+    result_type('ending', '', word, transient + periodic + machine, &
+      'why it ended before its end'), &
     result_type('not_reached', '', word, transient + periodic + machine, &
       'what was asked for and not reached', &
       'what was asked for and not reached: turns, a speed, a steady orbit, the end of a '// &
@@ -621,7 +623,8 @@ module gfb_result_table
     result_type('maximum_pressure_<n>', 'Pa', number, machine, 'largest pressure of bearing n'), &
     result_type('power_loss_<n>', 'W', number, machine, 'of bearing n'), &
     result_type('orbit_<a>_bearing_<n>', 'm', number, machine, 'extent at bearing n, last turns', &
-      'over time: extent of the motion of the shaft''s axis in the last five turns, at bearing n'), &
+      'over time: extent of the motion of the shaft''s axis in the last five turns, at '// &
+      'bearing n'), &
     result_type('orbit_<a>_disc_<n>', 'm', number, machine, 'extent at disc n, last turns', &
       'the same at disc n'), &
     result_type('orbit_<a>_station_<n>', 'm', number, machine, 'extent at station n, last turns', &

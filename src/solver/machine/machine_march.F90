@@ -25,7 +25,7 @@ module gfb_machine_march
   use gfb_machine_drive, only: machine_drive_type
   use gfb_machine_equilibrium, only: machine_bearing_type, journal_force, set_sizes
   use gfb_march_state, only: march_type, march_settings_type, allowed_step, usual_step, error_of
-  use gfb_time_march, only: begin_march, end_march, prepare_step_of, predict_step, accept_step, visit_past, find_misfit, rebuild_past
+  use gfb_time_march, only: begin_march, end_march, prepare_step_of, predict_step, accept_step, find_misfit, rebuild_past
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_report_type, newton_settings_type, solve_nearby, solve_with_factors, has_factors
   implicit none (type)
@@ -375,12 +375,10 @@ contains
     if (.not. open) call bearing%set_unknowns(before)
   end subroutine move_sleeve
 
-  !> Saves or restores a march: the shaft's motions, rates and what films do to it; the past of each film.
-  subroutine visit_machine_march(archive, bearing, march)
+  !> Saves or restores a march: the shaft's motions, rates and what films do to it. The past of each film is `visit_past`'s.
+  pure subroutine visit_machine_march(archive, march)
     type(archive_type), intent(inout) :: archive !! that saves or restores
-    type(machine_bearing_type), intent(inout) :: bearing(:) !! at the newest states, with the masses that foils had
     type(machine_march_type), intent(inout) :: march !! that has begun anew where the archive restores
-    integer :: i
 
     call archive%visit('motion', march%motion)
     call archive%visit('rate', march%rate)
@@ -388,10 +386,6 @@ contains
     call archive%visit('first_motion', march%first_motion)
     call archive%visit('usual', march%usual)
     call archive%visit('solves', march%solves)
-    do i = 1, size(bearing)
-      call archive%part('film_'//text(i))
-      call visit_past(archive, bearing(i)%bearing, march%film(i))
-    end do
   end subroutine visit_machine_march
 
   !> Goes on from what was read, which is judged.

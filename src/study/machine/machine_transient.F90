@@ -28,7 +28,7 @@ module gfb_machine_transient
   use gfb_machine_drive, only: machine_drive_type, machine_drive
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type
   use gfb_march_state, only: march_settings_type
-  use gfb_time_march, only: begin_rubbing
+  use gfb_time_march, only: begin_rubbing, visit_past
   use gfb_machine_march, only: machine_march_type, begin_machine_march, take_machine_step, end_machine_march, visit_machine_march, &
                                resume_machine_march, forget_tangents
   use gfb_machine_history, only: machine_history_type, begin_history
@@ -213,13 +213,17 @@ contains
     type(run_log_type), intent(in) :: log
     type(part_type), intent(inout) :: part(:)
     type(machine_bearing_type), intent(inout) :: bearing(:)
-    type(archive_type) :: archive(size(part) + 1)
+    type(archive_type) :: archive(2*size(part) + 1)
     integer :: i
 
     do i = 1, size(part)
       if (restart%every > 0) call forget_factors(bearing(i)%newton)
       archive(i)%name = part_archive(i)
       call visit_answer_and_record(archive(i), bearing(i)%bearing, bearing(i)%newton, part(i)%solution%record)
+      associate (past => archive(size(part) + i))
+        past%name = film_archive(i)
+        call visit_past(past, bearing(i)%bearing, self%march%film(i))
+      end associate
     end do
     if (restart%every > 0) call forget_tangents(self%march)
     associate (last => archive(size(archive)))
@@ -239,13 +243,20 @@ contains
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:)
     type(error_type), allocatable, intent(out) :: error
-    type(archive_type) :: archive
+    type(archive_type) :: archive, past
     character(len=:), allocatable :: why
+    integer :: i
 
     call read_restart(restart, 'machine', archive, error)
     if (allocated(error)) return
     call self%visit(archive, part, bearing)
     call end_reading(restart, archive, error)
+    do i = 1, size(part)
+      if (.not. allocated(error)) call read_restart(restart, film_archive(i), past, error)
+      if (allocated(error)) return
+      call visit_past(past, bearing(i)%bearing, self%march%film(i))
+      call end_reading(restart, past, error)
+    end do
     if (allocated(error)) return
     call resume_machine_march(machine, bearing, self%march, why)
     if (why == '') why = self%history%misfit(self%march)
@@ -273,7 +284,7 @@ contains
       if (archive%failed) return
       if (has_mass .and. .not. archive%saves) call resume_momentum(part(i)%scene, bearing(i)%bearing)
     end do
-    call visit_machine_march(archive, bearing, self%march)
+    call visit_machine_march(archive, self%march)
     call self%history%visit(archive)
     call archive%part('series')
     call visit_series(archive, self%series)
@@ -286,6 +297,13 @@ contains
     character(len=:), allocatable :: name
     name = 'bearing_'//text(number)
   end function part_archive
+
+  !> Name of the archive of a film's past.
+  function film_archive(number) result(name)
+    integer, intent(in) :: number !! of the bearing
+    character(len=:), allocatable :: name
+    name = 'film_'//text(number)
+  end function film_archive
 
   !> Time and turns, in words.
   function place_in_time(self) result(words)

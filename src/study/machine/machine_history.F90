@@ -1,3 +1,4 @@
+#include "gfb_petsc.h"
 !> The lines of a machine over time: a column each quantity, a line each time, and spectra of the shaft's motion.
 module gfb_machine_history
   use gfb_kinds, only: wp
