@@ -129,7 +129,8 @@ module gfb_result_table
     result_type('friction_torque', 'N m', number, bearing, &
       'torque with which {the film brakes} the shaft', &
       'torque with which the film, and solid contact, brake the shaft', asked=.true.), &
-    result_type('power_loss', 'W', number, bearing, 'friction torque times speed', asked=.true.), &
+    result_type('power_loss', 'W', number, bearing + machine, &
+      'friction torque times speed; of a machine of all bearings', asked=.true.), &
     result_type('minimum_gap', 'm', number, bearing, 'smallest film thickness', &
       asked=.true., compared=.true., nodal=.true.), &
     result_type('film_margin', '1', number, bearing, &
@@ -238,14 +239,17 @@ module gfb_result_table
   type(result_type), parameter, public :: heats(*) = [ &
     result_type('film_temperature', 'K', number, bearing, 'mean of the gas in the film', &
       'with `&thermal`: mean over the gas in the film', asked=.true.), &
-    result_type('film_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
+    result_type('film_temperature_<n>', 'K', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('maximum_film_temperature', 'K', number, bearing, &
       'largest mean over the gap', asked=.true., nodal=.true.), &
-    result_type('maximum_film_temperature_<n>', 'K', number, bearing, 'the same of pad n', &
+    result_type('maximum_film_temperature_<n>', 'K', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n', &
       nodal=.true.), &
     result_type('top_foil_temperature', 'K', number, bearing, 'mean of the top foil', &
       asked=.true.), &
-    result_type('top_foil_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
+    result_type('top_foil_temperature_<n>', 'K', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('maximum_top_foil_temperature', 'K', number, bearing, &
       'largest of the top foil', asked=.true., nodal=.true.), &
     result_type('maximum_top_foil_temperature_<n>', 'K', number, bearing, 'the same of pad n', &
@@ -262,10 +266,12 @@ module gfb_result_table
       'of the cooling gas where it leaves', asked=.true.), &
     result_type('heat_to_shaft', 'W', number, bearing, 'from the film into the shaft', &
       asked=.true.), &
-    result_type('heat_to_shaft_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_to_shaft_<n>', 'W', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('heat_to_top_foil', 'W', number, bearing, 'from the film into the top foil', &
       asked=.true.), &
-    result_type('heat_to_top_foil_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_to_top_foil_<n>', 'W', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('heat_through_bumps', 'W', number, bearing, &
       'from the top foil through the bumps into the sleeve', asked=.true.), &
     result_type('heat_through_bumps_<n>', 'W', number, bearing, 'the same of pad n'), &
@@ -274,7 +280,8 @@ module gfb_result_table
     result_type('heat_to_channel_<n>', 'W', number, bearing, 'the same of pad n'), &
     result_type('heat_by_gas', 'W', number, bearing, &
       'that the gas of the film carries out, less what it brings in', asked=.true.), &
-    result_type('heat_by_gas_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_by_gas_<n>', 'W', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('mass_flow_leading_edge', 'kg/s', number, bearing, &
       'that enters the film over the leading edges', asked=.true.), &
     result_type('mass_flow_trailing_edge', 'kg/s', number, bearing, &
@@ -287,9 +294,10 @@ module gfb_result_table
       'running_clearance less the preload of pads and of assembly', &
       'of pads with a preload, or foils with `assembly_interference`: `running_clearance` less '// &
       'both, the play of the warm shaft on foils at rest; below 0 it presses on them'), &
-    result_type('energy_imbalance', '1', number, bearing, &
+    result_type('energy_imbalance', '1', number, bearing + machine, &
       'power less all heat out of the film, over the power', &
-      'power less all heat out of the film, over the power: what the solver left open'), &
+      'power less all heat out of the film, over the power: what the solver left open; of a '// &
+      'machine whose shaft conducts of all films and the shaft'), &
     result_type('modulus_ratio_top_foil', '1', number, bearing, &
       'modulus of the top foil over its youngs_modulus', &
       'modulus of the top foil at its mean temperature, over its `youngs_modulus`; of several '// &
@@ -628,7 +636,18 @@ module gfb_result_table
     result_type('orbit_<a>_disc_<n>', 'm', number, machine, 'extent at disc n, last turns', &
       'the same at disc n'), &
     result_type('orbit_<a>_station_<n>', 'm', number, machine, 'extent at station n, last turns', &
-      'the same at station n of `&machine`')]
+      'the same at station n of `&machine`'), &
+    result_type('shaft_temperature_<n>', 'K', number, machine, &
+      'of the shaft under the film of bearing n, with `&thermal` in its file'), &
+    result_type('sleeve_temperature_<n>', 'K', number, machine, 'of the sleeve of bearing n'), &
+    result_type('running_clearance_<n>', 'm', number, machine, &
+      'clearance of bearing n less what shaft and sleeve grow by temperature and speed'), &
+    result_type('energy_imbalance_<n>', '1', number, machine, &
+      'power of bearing n less all heat out of its film, over the power'), &
+    result_type('heat_from_shaft_ends', 'W', number, machine, &
+      'heat that leaves the shaft through its ends, with shaft_conductivity'), &
+    result_type('heat_from_shaft_surface', 'W', number, machine, &
+      'heat that leaves the shaft through its surface')]
 
   type(result_type), parameter :: ensembles(*) = [ &
     result_type('member', '', word, ensemble, 'name of the case file', &

@@ -16,34 +16,50 @@ GAS = {"viscosity": 1.9e-5, "ambient_pressure": 1.0e5}
 JOURNAL, THRUST = "xy", "z"
 PLACES = {JOURNAL: ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y"), THRUST: ("eccentricity_z", "tilt_x", "tilt_y")}
 CLEARANCE = (20.0e-6, 25.0e-6)  # of the two journals
+HOT = 310.0  # K, at which shafts begin
 SAG = 3.0e-5  # m
 RIGID = (2.0e13, 4.0e13)  # Pa: a shaft that hardly bends, and half as much
 
 
-def journal(folder, name="journal", clearance=CLEARANCE[0], **operation):
+def with_heat(content, shaft):
+    """A bearing's case with heat, the shaft at a temperature, or, where that is 0, insulated."""
+    content["gas"] = {"viscosity_law": "sutherland", "ambient_pressure": 1.0e5}
+    content["top_foil"] = {"thickness": 1.0e-4}
+    content["thermal"] = {"sleeve_conductance": 0.5, "bump_conductance": 300.0} | (
+        {"shaft": "given", "shaft_temperature": shaft} if shaft else {"shaft_conductance": 0.0})
+    if content["bearing"].get("kind") != "thrust":
+        content["thermal"] |= {"shaft_expansion": 1.2e-5, "sleeve_expansion": 1.2e-5}
+
+
+def journal(folder, name="journal", clearance=CLEARANCE[0], heat=None, **operation):
     """The case of a journal bearing; without more at the machine's speed under some load."""
-    write_case(folder, name, {
+    content = {
         "scene": {"analysis": "linear_dynamics"}, "bearing": {"radius": 15.0e-3, "length": 25.0e-3, "clearance": clearance},
         "gas": GAS, "model": {"foil": "elastic_foundation", "foundation_stiffness": 5.0e9}, "foil_damping": {"foundation_damping": 2.0e5},
         "mesh": {"circumferential_elements": 36, "axial_elements": 6},
-        "operation": {"speed_rpm": SPEED} | (operation or {"load": (-8.0, 0.0)}), "dynamics": {"frequency_ratios": 1.0}})
-    return f"{name}.nml"
+        "operation": {"speed_rpm": SPEED} | (operation or {"load": (-8.0, 0.0)}), "dynamics": {"frequency_ratios": 1.0}}
+    if heat is not None:
+        with_heat(content, heat)
+    return write_case(folder, name, content).name
 
 
-def thrust(folder, name="thrust", play=None, **operation):
+def thrust(folder, name="thrust", play=None, heat=None, **operation):
     """The case of a thrust bearing."""
-    return write_case(folder, name, {
+    content = {
         "scene": {"analysis": "linear_dynamics"},
         "bearing": {"kind": "thrust", "outer_radius": 30.0e-3, "inner_radius": 15.0e-3} | ({"axial_play": play} if play else {}),
         "pads": {"count": 4, "arc": 1.3}, "ramp": {"part": 0.5, "height": 15.0e-6}, "gas": GAS,
         "model": {"foil": "elastic_foundation", "foundation_stiffness": 2.0e10, "foundation_pressure": "local"},
         "foil_damping": {"foundation_damping": 4.0e5}, "mesh": {"circumferential_elements": 8, "radial_elements": 5},
-        "operation": {"speed_rpm": SPEED} | (operation or {"axial_load": 20.0}), "dynamics": {"frequency_ratios": 1.0}}).name
+        "operation": {"speed_rpm": SPEED} | (operation or {"axial_load": 20.0}), "dynamics": {"frequency_ratios": 1.0}}
+    if heat is not None:
+        with_heat(content, heat)
+    return write_case(folder, name, content).name
 
 
-def machine(folder, **bearings):
+def machine(folder, heat=None, **bearings):
     """A shaft of 0.2 m with a disc in two unlike journal bearings, and what else is asked for."""
-    files, positions = [journal(folder), journal(folder, "wider", CLEARANCE[1])], [0.03, 0.17]
+    files, positions = [journal(folder, heat=heat), journal(folder, "wider", CLEARANCE[1], heat)], [0.03, 0.17]
     if "thrust" in bearings:
         files += bearings["thrust"]
         positions += bearings["thrust_positions"]
@@ -81,20 +97,22 @@ def farthest(first, second):
     return max(numpy.abs(second - one).min()/abs(one) for one in first)
 
 
-def alone(folder, number, answer, kind):
-    """A bearing by itself where it is in the machine, held: its answer and Z at the speed, real and imaginary part."""
+def alone(folder, number, answer, kind, heat=None):
+    """A bearing by itself where it is in the machine, held, and, with heat, as warm: its answer and Z at the speed."""
     where = place(answer, number, kind)
+    if heat is not None:
+        heat = heat or answer[f"shaft_temperature_{number}"]
     if kind == THRUST:
-        file = thrust(folder, "held", axial_gap=-where[0], tilt=tuple(where[1:]))
+        file = thrust(folder, "held", heat=heat, axial_gap=-where[0], tilt=tuple(where[1:]))
     else:
-        file = journal(folder, "held", CLEARANCE[number - 1], eccentricity=tuple(where[:2]), tilt=tuple(where[2:]))
+        file = journal(folder, "held", CLEARANCE[number - 1], heat, eccentricity=tuple(where[:2]), tilt=tuple(where[2:]))
     one = run_file(folder/file, folder)
     size = len(where)
     stiffness, damping = (array(one, f"dynamics/{name}").reshape(size, size) for name in ("stiffness", "damping"))
     return one, stiffness + 1j*OMEGA*damping
 
 
-def rigid_response(folder, answer, content, kinds, supports):
+def rigid_response(folder, answer, content, kinds, supports, heat):
     """Response to unbalance of a rigid body, x, y, theta_x, theta_y of its centre of mass and z, on the bearings' own
     coefficients; sleeves move on their supports."""
     mass, polar, across = (answer[name] for name in ("mass", "polar_inertia", "transverse_inertia"))
@@ -115,7 +133,7 @@ def rigid_response(folder, answer, content, kinds, supports):
             heavy, stiff, damps = supports[number]
             dynamic[own, own] += -OMEGA**2*heavy + 1j*OMEGA*damps + stiff
         moved = moved[[0, 1, 3, 4]] if kind == JOURNAL else moved[[2, 3, 4]]
-        dynamic += moved.T @ alone(folder, number, answer, kind)[1] @ moved
+        dynamic += moved.T @ alone(folder, number, answer, kind, heat)[1] @ moved
     push = numpy.zeros(size, dtype=complex)
     unbalance = content["unbalance"]
     one = unbalance["values"]*OMEGA**2*numpy.exp(1j*unbalance["angles"])
@@ -126,23 +144,23 @@ def rigid_response(folder, answer, content, kinds, supports):
             for position in content["bearings"]["positions"]}
 
 
-def differences(folder, content, kinds, supports):
+def differences(folder, content, kinds, supports, heat):
     """The machine's response to unbalance against that of a rigid body, at each bearing, x and y."""
     answer = solve(folder, "rigid", content)
-    expected = rigid_response(folder, answer, content, kinds, supports)
+    expected = rigid_response(folder, answer, content, kinds, supports, heat)
     table = array(answer, "dynamics/response")
     rows = [table[numpy.abs(table[:, 0] - position).argmin()] for position in expected]
     ours = numpy.array([row[[1, 3]]*numpy.exp(1j*row[[2, 4]]) for row in rows])
     return ours/numpy.array(list(expected.values())) - 1.0
 
 
-def check_response(checks, folder, words, content, kinds, supports):
+def check_response(checks, folder, words, content, kinds, supports, heat=None):
     """The machine's response to unbalance is that of a rigid body, where its bending, over two moduli, is taken off."""
     both = []
     for modulus in RIGID:
         content = copy.deepcopy(content)
         content["shaft"]["youngs_modulus"] = modulus
-        both.append(differences(folder, content, kinds, supports))
+        both.append(differences(folder, content, kinds, supports, heat))
     checks.below(f"{words}: response", numpy.abs(both[1]).max(), 1.0e-3)
     checks.below(f"{words}: response without bending", numpy.abs(2.0*both[1] - both[0]).max(), 1.0e-7)
 
@@ -225,6 +243,63 @@ def check_supports(checks, folder):
                    {2: (0.3, numpy.array((2.0e7, 3.0e7)), numpy.array((4.0e3, 2.0e3)))})
 
 
+def hot_machine(folder):
+    """Two journals and a thrust bearing on a shaft that conducts."""
+    content = machine(folder, HOT, thrust=[thrust(folder, heat=HOT)], thrust_positions=[0.01])
+    content["machine"] |= {"shaft_conductivity": 20.0, "shaft_end_conductance": (0.05, 0.1), "shaft_end_temperature": (300.0, 320.0)}
+    return content
+
+
+def check_heat(checks, folder):
+    """Heat of three films in one shaft: energy closes, the shaft's temperatures are those of a rod with three sources, each bearing
+    by itself at its temperature has the same answer, small motions are those of films as warm, and the mirror image is the same."""
+    content = hot_machine(folder)
+    answer = solve(folder, "hot", content)
+    checks.below("energy", answer["energy_imbalance"], 1.0e-11)
+    heat = [answer[f"heat_to_shaft_{i}"] for i in (1, 2, 3)]
+    out = answer["heat_from_shaft_ends"]
+    checks.below("the shaft's heat", (sum(heat) - out)/answer["power_loss"], 1.0e-11)
+    z, temperature = array(answer, "shaft/temperature").T
+    across = 20.0*math.pi/4.0*0.03**2
+    first = temperature[0]
+    rod = first + z*0.05*(first - 300.0)/across
+    for flow, position in zip(heat, content["bearings"]["positions"], strict=True):
+        rod -= numpy.maximum(z - position, 0.0)*flow/across
+    checks.below("a rod with sources", numpy.abs(rod - temperature).max()/30.0, 1.0e-11)
+    checks.below("its far end", across*(temperature[-1] - temperature[-2])/(z[-1] - z[-2])/(-0.1*(temperature[-1] - 320.0)) - 1.0, 1.0e-9)
+    checks.that("bearings are unlike", abs(answer["shaft_temperature_1"] - answer["shaft_temperature_2"]) > 0.1)
+    for number, kind in ((2, JOURNAL), (3, THRUST)):
+        one, _ = alone(folder, number, answer, kind, 0.0)
+        checks.below(f"bearing {number} alone: heat", (one["heat_to_shaft"] - heat[number - 1])/answer["power_loss"], 1.0e-9)
+        checks.below(f"bearing {number} alone: loss", one["power_loss"]/answer[f"power_loss_{number}"] - 1.0, 1.0e-9)
+    check_response(checks, folder, "with heat", content, (JOURNAL, JOURNAL, THRUST), {}, 0.0)
+    mirrored = copy.deepcopy(content)
+    for group in ("discs", "unbalance", "loads"):
+        mirrored[group]["positions"] = 0.2 - content[group]["positions"]
+    mirrored["loads"]["moments_x"] *= -1.0
+    mirrored["bearings"] |= {"positions": [0.2 - one for one in content["bearings"]["positions"]], "facing": [1, 1, -1]}
+    mirrored["machine"] |= {"axial_load": -20.0} | {key: content["machine"][key][::-1]
+                                                   for key in ("shaft_end_conductance", "shaft_end_temperature")}
+    other = solve(folder, "mirrored", mirrored)
+    checks.below("mirrored: temperatures", max(abs(other[f"shaft_temperature_{i}"] - answer[f"shaft_temperature_{i}"])
+                                               for i in (1, 2, 3))/30.0, 1.0e-9)
+
+
+def check_apart(checks, folder):
+    """Two equal bearings on a shaft that hardly conducts and is insulated: each is as on an insulated shaft alone."""
+    content = machine(folder, HOT)
+    content["bearings"]["files"] = [journal(folder, heat=HOT)]*2
+    content["machine"]["shaft_conductivity"] = 1.0e-9
+    del content["unbalance"], content["dynamics"]
+    content["scene"]["analysis"] = "equilibrium"
+    answer = solve(folder, "apart", content)
+    where = place(answer, 1, JOURNAL)
+    one = run_file(folder/journal(folder, "held", CLEARANCE[0], 0.0, eccentricity=tuple(where[:2]), tilt=tuple(where[2:])), folder)
+    checks.below("far apart: temperature of the shaft", (one["shaft_temperature"] - answer["shaft_temperature_1"])/30.0, 1.0e-7)
+    checks.below("far apart: loss", one["power_loss"]/answer["power_loss_1"] - 1.0, 1.0e-8)
+    checks.below("far apart: energy", answer["energy_imbalance"], 1.0e-11)
+
+
 def check_wrong(checks, folder):
     """Mistakes are named with their rule."""
     content = machine(folder, thrust=[thrust(folder)], thrust_positions=[0.01])
@@ -247,10 +322,22 @@ def check_wrong(checks, folder):
     facing["bearings"] |= {"files": content["bearings"]["files"] + ["thrust.nml"], "positions": [0.03, 0.17, 0.01, 0.01],
                            "facing": [1, 1, 1, -1]}
     checks.that("no play", "leaves 0 m in all for the gaps" in solve(folder, "wrong", facing, status=1).complaint)
+    hot = hot_machine(folder)
+    hot["bearings"]["files"][0] = journal(folder, "own", heat=0.0)
+    checks.that("a shaft of its own", "the bearing has no shaft of its own" in solve(folder, "wrong", hot, status=1).complaint)
+    for words, changed in (("shaft_end_temperature is required with", {"shaft_end_temperature": None}),
+                           ("needs shaft_conductivity", {"shaft_conductivity": None}),
+                           ("is required with shaft_film_conductance", {"shaft_film_conductance": 10.0})):
+        wrong = hot_machine(folder)
+        wrong["machine"] = {key: value for key, value in (wrong["machine"] | changed).items() if value is not None}
+        checks.that(words, words.split(" ", 1)[1] in solve(folder, "wrong", wrong, status=1).complaint)
+    cold = machine(folder)
+    cold["machine"]["shaft_conductivity"] = 20.0
+    checks.that("no heat", "no bearing has &thermal" in solve(folder, "wrong", cold, status=1).complaint)
     without = machine(folder)
     without["machine"]["axial_load"] = 1.0
     checks.that("nothing carries axial_load", "no thrust bearing" in solve(folder, "wrong", without, status=1).complaint)
 
 
 if __name__ == "__main__":
-    run_checks((check_thrust, check_two_sides, check_supports, check_wrong), ())
+    run_checks((check_thrust, check_two_sides, check_supports, check_heat, check_apart, check_wrong), ())

@@ -165,6 +165,8 @@ NumberName = Literal[
     "centre_of_mass",
     "transverse_inertia",
     "polar_inertia",
+    "heat_from_shaft_ends",
+    "heat_from_shaft_surface",
     "load",
     "load_angle",
     "speed_rpm",

@@ -23,6 +23,7 @@ module gfb_machine
                        node_at
   use gfb_shaft_equations, only: shaft_equations_type, shaft_equations
   use gfb_held_shaft, only: held_shaft_type, hold_shaft
+  use gfb_shaft_heat, only: shaft_heat_type
   implicit none (type, external)
   private
   public :: build_machine, machine_shaft, hold_at_rest, place_of_sleeve, bearing_loads, &
@@ -51,6 +52,7 @@ module gfb_machine
     integer, allocatable :: held(:)       !! places of the held motions among all
     integer :: along = 0                  !! place of the shaft's motion along z; 0: it has none
     type(moving_sleeve_type), allocatable :: sleeve(:) !! those that have supports
+    type(shaft_heat_type) :: heat         !! along the shaft, where it conducts
     real(wp), allocatable :: force(:)     !! on the shaft: weight and loads [N], [N m]
     real(wp) :: speed = 0.0_wp            !! [rad/s]
     integer, allocatable :: station(:)    !! nodes of discs and further places

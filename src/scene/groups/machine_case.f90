@@ -16,6 +16,7 @@ module gfb_machine_case
   integer, parameter :: most_bearings = 20
   real(wp), parameter :: most_elements = 100.0_wp !! of a segment [1]
   real(wp), parameter :: rounding = 1.0e-12_wp   !! of a length [1]
+  real(wp), parameter :: coldest = 150.0_wp, hottest = 2000.0_wp !! else a temperature is not in K
   real(wp), parameter :: standard_gravity = 9.81_wp !! [m/s^2]
 
   !> Where something stands along the shaft, and what acts there.
@@ -53,6 +54,12 @@ module gfb_machine_case
     real(wp) :: gravity(2) = [-standard_gravity, 0.0_wp] !! x and y [m/s^2]
     logical :: journal_tilts = .true. !! each film sees how its journal is tilted
     real(wp), allocatable :: station(:) !! where the shaft's place is asked for [m]
+    ! Heat along the shaft.
+    real(wp), allocatable :: shaft_conductivity(:) !! of segments, if it conducts [W/(m K)]
+    real(wp) :: shaft_end_conductance(2) = 0.0_wp  !! of the first and the last end [W/K]
+    real(wp) :: shaft_end_temperature(2) = 0.0_wp  !! beyond them [K]
+    real(wp) :: shaft_film_conductance = 0.0_wp    !! of the bare surface [W/(m^2 K)]
+    real(wp) :: shaft_film_temperature = 0.0_wp    !! around that [K]
   end type machine_case_type
 
 contains
@@ -354,5 +361,45 @@ contains
     call keys%real_list_key('stations', machine%station, longest_list, 'm', 'further places '// &
                             'along the shaft at which results are asked for', not_negative, &
                             .false., 'none: bearings and discs')
+    call read_shaft_heat(keys, machine)
   end subroutine read_operation
+
+  !> How the shaft conducts heat; without conductivity each bearing's file says it for itself.
+  subroutine read_shaft_heat(keys, machine)
+    type(case_keys_type), intent(inout) :: keys
+    type(machine_case_type), intent(inout) :: machine
+    character(len=*), parameter :: group = 'machine', conductivity = 'shaft_conductivity'
+    character(len=*), parameter :: others(*) = [character(len=22) :: 'shaft_end_conductance', &
+      'shaft_end_temperature', 'shaft_film_conductance', 'shaft_film_temperature']
+    logical :: ends, conducts
+    integer :: i
+
+    conducts = keys%holds(group, conductivity)
+    call read_values(keys, size(machine%length), conductivity, machine%shaft_conductivity, &
+                     'W/(m K)', 'conductivity of each segment of the shaft, or of all, along '// &
+                     'which the heat of all bearings flows', positive, .false., &
+                     'each bearing''s file has a shaft of its own')
+    if (.not. conducts) machine%shaft_conductivity = machine%shaft_conductivity(:0)
+    call keys%real_vector_key('shaft_end_conductance', machine%shaft_end_conductance, 'W/K', &
+                              'from the first and the last end of the shaft to far places; 0: '// &
+                              'insulated', not_negative)
+    call keys%real_vector_key('shaft_end_temperature', machine%shaft_end_temperature, 'K', &
+                              'temperatures of these places', from_to(coldest, hottest), &
+                              default='required with shaft_end_conductance', given=ends)
+    call keys%real_key('shaft_film_conductance', machine%shaft_film_conductance, 'W/(m^2 K)', &
+                       'from the surface of the shaft, where no bearing is around it, to what '// &
+                       'is around it', not_negative)
+    call keys%real_key('shaft_film_temperature', machine%shaft_film_temperature, 'K', &
+                       'temperature of that', from_to(coldest, hottest), &
+                       default='required with shaft_film_conductance')
+    do i = 1, size(others)
+      call keys%rule(group, trim(others(i)), .not. conducts .and. &
+                     keys%holds(group, trim(others(i))), 'needs shaft_conductivity')
+    end do
+    call keys%rule(group, 'shaft_end_temperature', any(machine%shaft_end_conductance > 0.0_wp) &
+                   .and. .not. ends, 'is required with shaft_end_conductance')
+    call keys%rule(group, 'shaft_film_temperature', machine%shaft_film_conductance > 0.0_wp .and. &
+                   .not. machine%shaft_film_temperature > 0.0_wp, &
+                   'is required with shaft_film_conductance')
+  end subroutine read_shaft_heat
 end module gfb_machine_case

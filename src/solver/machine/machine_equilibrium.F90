@@ -9,6 +9,10 @@
 !>
 !> so that no force is a step late. Z is made once, and follows what steps teach by Broyden's rank-one
 !> update; it is made anew where a step makes too little of the imbalance go.
+!>
+!> Where the shaft conducts heat its temperatures T under the bearings are found with the motions: to
+!> a stand T, to f the heat q that the film gives to the shaft, to S and g the shaft's conductances.
+!> How forces and heat follow T is made by a difference.
 module gfb_machine_equilibrium
   use gfb_kinds, only: wp
   use gfb_text, only: text
@@ -24,6 +28,9 @@ module gfb_machine_equilibrium
   use gfb_newton, only: newton_type
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_saved_state, only: saved_state_type
+  use gfb_heat_switch, only: held_bearing_type, hold_heat
   use gfb_vibration_law, only: vibration_type
   use gfb_dynamic_response, only: dynamic_response_type, create_response, find_coefficients, destroy_response
   implicit none (type)
@@ -37,6 +44,9 @@ module gfb_machine_equilibrium
   real(wp), parameter :: longest = 0.25_wp      !! step of a journal, over its clearance [1]
   real(wp), parameter :: least_load = 1.0e-6_wp !! that an imbalance is measured against, over p_a D L [1]
   real(wp), parameter :: slow = 0.3_wp          !! of the imbalance that is left by a step with which Z is made anew [1]
+  real(wp), parameter :: temperature_size = 200.0_wp !! steps of a temperature are measured by [K]
+  real(wp), parameter :: least_power = 1.0e-3_wp !! that heat is measured by [W]
+  real(wp), parameter :: warmer = 0.5_wp !! shaft by which derivatives by its temperature are made [K]
   real(wp), parameter :: shortest = 1.0e-3_wp   !! share of a step that is tried [1]
 
   !> A bearing of the machine, with its solver.
@@ -46,9 +56,11 @@ module gfb_machine_equilibrium
     type(path_settings_type) :: path
   end type machine_bearing_type
 
-  !> What a film does to its journal, in the order of the coordinates that it feels.
+  !> What a film does to its journal, in the order of the coordinates that it feels; behind them stands heat.
   type :: film_type
-    real(wp), allocatable :: force(:)        !! on the shaft [N], [N m]
+    integer, allocatable :: at(:)            !! places of what it feels among the machine's unknowns
+    real(wp), allocatable :: sign(:)         !! which it has there [1]
+    real(wp), allocatable :: force(:)        !! on the shaft, and heat into it [N], [N m], [W]
     real(wp), allocatable :: stiffness(:, :) !! Z [SI]
   end type film_type
 
@@ -58,8 +70,12 @@ module gfb_machine_equilibrium
     character(len=:), allocatable :: reason !! why not
     real(wp), allocatable :: motion(:) !! a: those that films feel [m], [rad]
     real(wp), allocatable :: force(:)  !! f: of the films on the shaft [N], [N m]
+    real(wp), allocatable :: temperature(:) !! T: of the shaft, where it conducts, under bearings with heat [K]
     type(held_shaft_type) :: held
     type(film_type), allocatable, private :: film(:) !! one a journal
+    real(wp), allocatable, private :: unknown(:)     !! motions, then temperatures [m], [rad], [K]
+    real(wp), allocatable, private :: action(:)      !! of the films on them [N], [N m], [W]
+    real(wp), allocatable, private :: stiffness(:, :), load(:) !! S and g, of the shaft alone [SI]
     integer :: steps = 0
   end type machine_equilibrium_type
 
@@ -107,10 +123,12 @@ contains
     real(wp), allocatable, intent(out) :: stiffness(:, :) !! Z of the coordinates that its film feels [N/m], [N], [N m]
     logical, intent(out) :: found
     type(dynamic_response_type) :: response
+    type(held_bearing_type) :: still
     complex(wp), allocatable :: coefficient(:, :)
 
-    call create_response(one%bearing, vibration_type(stick=.false.), response)
-    call find_journal_coefficients(one%bearing, response, journal, (0.0_wp, 0.0_wp), coefficient, found)
+    call hold_heat(one%bearing, still)
+    call create_response(still%bearing, vibration_type(stick=.false.), response)
+    call find_journal_coefficients(still%bearing, response, journal, (0.0_wp, 0.0_wp), coefficient, found)
     stiffness = real(coefficient, wp)
     one%newton%factorizations = one%newton%factorizations + response%factorizations
     call destroy_response(response)
@@ -150,11 +168,9 @@ contains
       answer%reason = 'nothing holds the shaft: one journal alone needs journal_tilts'
       return
     end if
-    allocate (answer%motion, source=motion)
-    allocate (answer%force, mold=motion)
-    allocate (answer%film(size(bearing)))
+    call gather(machine, bearing, motion, answer)
     call set_sizes(machine, bearing, size_of, of_force)
-    call move_all(machine, bearing, motion, answer, regular)
+    call move_all(machine, bearing, answer%unknown, answer, regular)
     if (.not. regular) return
     call linearise_all(machine, bearing, answer)
     if (answer%reason /= '') return
@@ -167,15 +183,15 @@ contains
       end if
       call log%is_on('machine, step '//text(answer%steps + 1)//', imbalance '//text(norm, 2))
       step = left/of_force
-      stiffness = stiffness_of(machine, answer)
-      call solve_general((answer%held%stiffness + stiffness)*spread(size_of, 1, size(step))/ &
+      stiffness = stiffness_of(answer)
+      call solve_general((answer%stiffness + stiffness)*spread(size_of, 1, size(step))/ &
                          spread(of_force, 2, size(step)), step, regular)
       if (.not. regular) exit
       step = size_of*step
       share = min(1.0_wp, longest/max(maxval(abs(step/size_of)), tiny(1.0_wp)))
       done = share >= 1.0_wp .and. maxval(abs(step/size_of)) < tolerance
       before = answer%film
-      from = answer%motion
+      from = answer%unknown
       norm_before = norm
       call take_step(machine, bearing, step, share, answer)
       if (answer%reason /= '') return
@@ -188,7 +204,7 @@ contains
         call linearise_all(machine, bearing, answer)
         if (answer%reason /= '') return
       else
-        call learn(machine, from, before, size_of, answer)
+        call learn(from, before, size_of, answer)
       end if
     end do
     call log%is_on('')
@@ -196,16 +212,70 @@ contains
     if (.not. answer%converged) answer%reason = 'shaft and films did not come to balance in '//text(answer%steps)//' steps'
   end subroutine find_machine_equilibrium
 
-  !> How large a motion of each journal and a force on it are.
+  !> Motions, and temperatures where the shaft conducts, in one list, with what the shaft alone makes of them.
+  subroutine gather(machine, bearing, motion, answer)
+    type(machine_type), intent(in) :: machine
+    type(machine_bearing_type), intent(in) :: bearing(:)
+    real(wp), intent(in) :: motion(:) !! a, to begin with [m], [rad]
+    type(machine_equilibrium_type), intent(inout) :: answer
+    integer :: i, n
+
+    n = size(motion)
+    answer%unknown = motion
+    answer%stiffness = answer%held%stiffness
+    answer%load = answer%held%force
+    if (machine%heat%present) then
+      associate (held => machine%heat%held)
+        answer%unknown = [motion, spread(0.0_wp, 1, size(held%force))]
+        answer%load = [answer%load, held%force]
+        deallocate (answer%stiffness)
+        allocate (answer%stiffness(size(answer%load), size(answer%load)), source=0.0_wp)
+        answer%stiffness(:n, :n) = answer%held%stiffness
+        answer%stiffness(n + 1:, n + 1:) = held%stiffness
+      end associate
+    end if
+    allocate (answer%action, mold=answer%unknown)
+    allocate (answer%film(size(bearing)))
+    do i = 1, size(bearing)
+      associate (film => answer%film(i), journal => machine%journal(i))
+        film%at = journal%at
+        film%sign = journal%sign
+        if (.not. has_heat(machine, i)) cycle
+        film%at = [journal%at, n + machine%heat%at(i)]
+        film%sign = [journal%sign, 1.0_wp]
+        answer%unknown(n + machine%heat%at(i)) = bearing(i)%bearing%heat%shaft%temperature
+      end associate
+    end do
+  end subroutine gather
+
+  !> Whether the film of a bearing exchanges heat with a shaft that conducts.
+  pure logical function has_heat(machine, number)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the bearing
+
+    has_heat = machine%heat%present
+    if (has_heat) has_heat = machine%heat%at(number) > 0
+  end function has_heat
+
+  !> How large a motion of each journal and a force on it are, and a temperature and heat.
   subroutine set_sizes(machine, bearing, size_of, of_force)
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(in) :: bearing(:) !! its own
     real(wp), allocatable, intent(out) :: size_of(:)  !! clearance, and that over half the width [m], [rad]
     real(wp), allocatable, intent(out) :: of_force(:) !! load, and that times half the width [N], [N m]
-    real(wp) :: load, half
-    integer :: i
+    type(bearing_answer_type) :: alone
+    real(wp) :: load, half, power
+    integer :: i, temperatures
 
-    allocate (size_of(size(machine%held)), of_force(size(machine%held)))
+    temperatures = 0
+    if (machine%heat%present) temperatures = size(machine%heat%held%force)
+    power = 0.0_wp
+    do i = 1, merge(size(bearing), 0, temperatures > 0)
+      alone = bearing_answer(bearing(i)%bearing, brief=.true.)
+      power = power + alone%power_loss
+    end do
+    allocate (size_of(size(machine%held) + temperatures), source=temperature_size)
+    allocate (of_force(size(machine%held) + temperatures), source=max(power, least_power))
     load = max(sum(abs(machine%force(::2))), least_load*bearing(1)%bearing%force_scale())
     do i = 1, size(bearing)
       half = max(0.5_wp*bearing(i)%bearing%pad(1)%film%width, bearing(i)%bearing%mesh%surface%tilt_arm())
@@ -221,52 +291,71 @@ contains
     end do
   end subroutine set_sizes
 
-  !> What is left of the balance, g + f - S a [N], [N m].
+  !> What is left of the balance, g + f - S a [N], [N m], [W].
   pure function imbalance_of(answer) result(left)
     type(machine_equilibrium_type), intent(in) :: answer
-    real(wp) :: left(size(answer%motion))
-    left = answer%held%force + answer%force - matmul(answer%held%stiffness, answer%motion)
+    real(wp) :: left(size(answer%unknown))
+    left = answer%load + answer%action - matmul(answer%stiffness, answer%unknown)
   end function imbalance_of
 
   !> Solves all bearings with their journals elsewhere.
-  subroutine move_all(machine, bearing, motion, answer, moved)
+  subroutine move_all(machine, bearing, unknown, answer, moved)
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:)
-    real(wp), intent(in) :: motion(:) !! a [m], [rad]
-    type(machine_equilibrium_type), intent(inout) :: answer !! gets motions and forces
+    real(wp), intent(in) :: unknown(:) !! motions, then temperatures [m], [rad], [K]
+    type(machine_equilibrium_type), intent(inout) :: answer !! gets them, and forces
     logical, intent(out) :: moved
     character(len=:), allocatable :: reason
-    real(wp) :: force(film_forces)
-    integer :: i
+    integer :: i, n
 
-    answer%force = 0.0_wp
+    n = size(machine%held)
+    answer%action = 0.0_wp
     do i = 1, size(bearing)
-      associate (journal => machine%journal(i))
-        call move_journal(bearing(i), journal%coordinate, place_of_sleeve(journal, motion), machine%speed, moved, reason)
+      associate (journal => machine%journal(i), film => answer%film(i))
+        if (has_heat(machine, i)) bearing(i)%bearing%heat%shaft%temperature = unknown(n + machine%heat%at(i))
+        call move_journal(bearing(i), journal%coordinate, place_of_sleeve(journal, unknown(:n)), machine%speed, moved, reason)
         if (.not. moved) then
           answer%reason = 'bearing '//text(i)//': '//reason
           return
         end if
-        force = journal_force(bearing(i)%bearing)
-        answer%film(i)%force = force(journal%coordinate)
-        answer%force(journal%at) = answer%force(journal%at) + journal%sign*answer%film(i)%force
+        film%force = film_action(machine, i, bearing(i)%bearing)
+        answer%action(film%at) = answer%action(film%at) + film%sign*film%force
       end associate
     end do
-    answer%motion = motion
+    answer%unknown = unknown
+    answer%motion = unknown(:n)
+    answer%temperature = unknown(n + 1:)
+    answer%force = answer%action(:n)
     answer%reason = ''
   end subroutine move_all
+
+  !> Forces of a film along the coordinates that it feels, and its heat into a shaft that conducts.
+  function film_action(machine, number, bearing) result(action)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the bearing
+    type(bearing_system_type), intent(in) :: bearing !! solved
+    real(wp), allocatable :: action(:) !! [N], [N m], [W]
+    type(bearing_answer_type) :: answer
+    real(wp) :: force(film_forces)
+
+    force = journal_force(bearing)
+    action = force(machine%journal(number)%coordinate)
+    if (.not. has_heat(machine, number)) return
+    answer = bearing_answer(bearing, brief=.true.)
+    action = [action, answer%heat%whole%to_shaft]
+  end function film_action
 
   !> Takes a step, or as much of it as all bearings can follow.
   subroutine take_step(machine, bearing, step, share, answer)
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:)
-    real(wp), intent(in) :: step(:) !! of all motions [m], [rad]
+    real(wp), intent(in) :: step(:) !! of all motions and temperatures [m], [rad], [K]
     real(wp), intent(inout) :: share !! of it that is taken [1]
     type(machine_equilibrium_type), intent(inout) :: answer
     real(wp) :: from(size(step))
     logical :: moved
 
-    from = answer%motion
+    from = answer%unknown
     do
       call move_all(machine, bearing, from + share*step, answer, moved)
       if (moved .or. share < shortest) return
@@ -279,44 +368,82 @@ contains
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:)
     type(machine_equilibrium_type), intent(inout) :: answer
+    real(wp), allocatable :: stiffness(:, :)
     logical :: found
     integer :: i
 
     do i = 1, size(bearing)
-      call find_stiffness(bearing(i), machine%journal(i), answer%film(i)%stiffness, found)
-      if (found) cycle
-      answer%reason = 'bearing '//text(i)//': its linearised equations cannot be factorized'
-      return
+      associate (film => answer%film(i))
+        call find_stiffness(bearing(i), machine%journal(i), stiffness, found)
+        if (.not. found) answer%reason = 'bearing '//text(i)//': its linearised equations cannot be factorized'
+        if (found .and. has_heat(machine, i)) call add_heat_column(machine, i, bearing(i), film%force, stiffness, answer%reason)
+        if (answer%reason /= '') return
+        film%stiffness = stiffness
+      end associate
     end do
   end subroutine linearise_all
 
-  !> Z of all held motions.
-  pure function stiffness_of(machine, answer) result(stiffness)
+  !> Behind Z of a bearing, how its forces and its heat follow the shaft's temperature, by a difference. How its heat follows its
+  !> journal is left to what steps teach.
+  subroutine add_heat_column(machine, number, one, action, stiffness, reason)
     type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the bearing
+    type(machine_bearing_type), intent(inout) :: one !! is left as it is
+    real(wp), intent(in) :: action(:) !! of its film now [N], [N m], [W]
+    real(wp), allocatable, intent(inout) :: stiffness(:, :) !! Z [SI]
+    character(len=:), allocatable, intent(inout) :: reason
+    type(saved_state_type) :: state
+    real(wp), allocatable :: larger(:, :)
+    character(len=:), allocatable :: why
+    real(wp) :: temperature
+    logical :: moved
+    integer :: n
+
+    n = size(stiffness, 1)
+    allocate (larger(n + 1, n + 1), source=0.0_wp)
+    larger(:n, :n) = stiffness
+    call state%save(one%bearing)
+    associate (shaft => one%bearing%heat%shaft, coordinate => machine%journal(number)%coordinate)
+      temperature = shaft%temperature
+      shaft%temperature = temperature + warmer
+      call move_journal(one, coordinate, one%bearing%point%place(coordinate), machine%speed, moved, why)
+      if (moved) larger(:, n + 1) = (action - film_action(machine, number, one%bearing))/warmer
+      shaft%temperature = temperature
+    end associate
+    call state%restore(one%bearing)
+    call state%destroy()
+    if (.not. moved) reason = 'bearing '//text(number)//' with a shaft warmer by '//text(warmer)//' K: '//why
+    call move_alloc(larger, stiffness)
+  end subroutine add_heat_column
+
+  !> Z of all motions and temperatures.
+  pure function stiffness_of(answer) result(stiffness)
     type(machine_equilibrium_type), intent(in) :: answer
     real(wp), allocatable :: stiffness(:, :) !! [SI]
     integer :: i
 
-    allocate (stiffness(size(machine%held), size(machine%held)), source=0.0_wp)
-    do i = 1, size(machine%journal)
-      associate (at => machine%journal(i)%at, sign => machine%journal(i)%sign)
+    allocate (stiffness, mold=answer%stiffness)
+    stiffness = 0.0_wp
+    do i = 1, size(answer%film)
+      associate (at => answer%film(i)%at, sign => answer%film(i)%sign)
         stiffness(at, at) = stiffness(at, at) + answer%film(i)%stiffness*spread(sign, 1, size(at))*spread(sign, 2, size(at))
       end associate
     end do
   end function stiffness_of
 
   !> Broyden's update of each journal's Z by what a step has shown.
-  pure subroutine learn(machine, from, before, size_of, answer)
-    type(machine_type), intent(in) :: machine
-    real(wp), intent(in) :: from(:) !! motions before the step [m], [rad]
+  pure subroutine learn(from, before, size_of, answer)
+    real(wp), intent(in) :: from(:) !! motions and temperatures before the step [m], [rad], [K]
     type(film_type), intent(in) :: before(:) !! the films there
-    real(wp), intent(in) :: size_of(:) !! of motions [m], [rad]
+    real(wp), intent(in) :: size_of(:) !! of them [m], [rad], [K]
     type(machine_equilibrium_type), intent(inout) :: answer !! behind it
     integer :: i
 
     do i = 1, size(before)
-      associate (at => machine%journal(i)%at, sign => machine%journal(i)%sign, film => answer%film(i))
-        call learn_one(sign*(answer%motion(at) - from(at)), film%force - before(i)%force, size_of(at), film%stiffness)
+      associate (film => answer%film(i))
+        associate (at => film%at)
+          call learn_one(film%sign*(answer%unknown(at) - from(at)), film%force - before(i)%force, size_of(at), film%stiffness)
+        end associate
       end associate
     end do
   end subroutine learn

@@ -11,6 +11,7 @@ module gfb_machine_linear
   use gfb_machine_equilibrium, only: find_journal_coefficients
   use gfb_machine, only: machine_type
   use gfb_bearing_system, only: bearing_system_type
+  use gfb_heat_switch, only: held_bearing_type, hold_heat, let_go
   use gfb_vibration_law, only: vibration_type
   use gfb_dynamic_response, only: dynamic_response_type, create_response, destroy_response
   use gfb_frequency_response, only: frequency_response_type
@@ -21,6 +22,7 @@ module gfb_machine_linear
   !> A bearing about its equilibrium.
   type, public :: linear_bearing_type
     type(bearing_system_type), pointer :: bearing => null()
+    type(held_bearing_type), private :: still !! with temperatures as they are
     type(dynamic_response_type) :: response
     type(frequency_response_type) :: model !! of it
   end type linear_bearing_type
@@ -33,8 +35,9 @@ contains
     type(vibration_type), intent(in) :: vibration !! of its foils
     type(run_log_type), intent(in) :: log !! where lines go
     type(linear_bearing_type), intent(inout) :: linear
-    linear%bearing => bearing
-    call create_response(bearing, vibration, linear%response, log=log)
+    call hold_heat(bearing, linear%still)
+    linear%bearing => linear%still%bearing
+    call create_response(linear%bearing, vibration, linear%response, log=log)
   end subroutine linearise_bearing
 
   !> Frees it.
@@ -42,6 +45,7 @@ contains
     type(linear_bearing_type), intent(inout) :: linear
     if (associated(linear%bearing)) call destroy_response(linear%response)
     nullify (linear%bearing)
+    call let_go(linear%still)
   end subroutine drop_linear_bearing
 
   !> The whole machine at a rate.

@@ -9,6 +9,8 @@ module gfb_machine_parts
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
   use gfb_analysis_row, only: analysis_equilibrium, analysis_fixed_position
+  use gfb_heated_film, only: wall_given
+  use gfb_shaft_heat, only: shaft_heat_type, build_shaft_heat
   use gfb_model_case, only: half_width_no, half_width_yes
   use gfb_film_surface, only: axial_coordinate
   use gfb_mesh_plan, only: bearing_plan_type
@@ -17,7 +19,7 @@ module gfb_machine_parts
   use gfb_bearing_solution, only: bearing_solution_type
   implicit none (type)
   private
-  public :: read_parts, load_parts, check_fit, first_motions
+  public :: read_parts, load_parts, heat_parts, check_fit, first_motions
 
   real(wp), parameter :: unlike = 0.01_wp    !! diameters that differ by more do not fit [1]
   real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
@@ -103,8 +105,9 @@ contains
         why = 'a machine has journal and thrust bearings, and no cones so far'
       else if (one%sweep%present) then
         why = 'it has a &sweep: the machine is at one point'
-      else if (one%thermal%present) then
-        why = '&thermal is not carried by a machine yet'
+      else if (size(machine%shaft_conductivity) > 0 .and. one%thermal%present .and. one%thermal%shaft /= wall_given) then
+        why = 'the shaft of the machine conducts (shaft_conductivity in &machine), so the bearing has no shaft of its own: '// &
+              "in &thermal say shaft = 'given' with a shaft_temperature, at which it begins"
       else if (row%moves_along .and. .not. machine%axial_load_given) then
         why = 'a thrust bearing needs axial_load in &machine'
       else if (row%moves_along .and. any(machine%support_stiffness(:, number) > 0.0_wp)) then
@@ -126,7 +129,9 @@ contains
 
     along = [(part(i)%scene%bearing%row%moves_along, i=1, size(part))]
     associate (machine => scene%machine)
-      if (all(along)) then
+      if (size(machine%shaft_conductivity) > 0 .and. .not. any([(part(i)%scene%thermal%present, i=1, size(part))])) then
+        call fail(error, scene%file//': &machine: shaft_conductivity: no bearing has &thermal')
+      else if (all(along)) then
         call fail(error, scene%file//': &bearings: files: no journal bearing holds the shaft across its axis')
       else if (machine%axial_load_given .and. .not. any(along)) then
         call fail(error, scene%file//': &machine: axial_load: no thrust bearing of &bearings carries it')
@@ -193,6 +198,18 @@ contains
       end do
     end associate
   end subroutine load_parts
+
+  !> The heat of the shaft between the bearings that have some.
+  pure function heat_parts(scene, machine, part) result(heat)
+    type(scene_type), intent(in) :: scene !! of the machine
+    type(machine_type), intent(in) :: machine
+    type(part_type), intent(in) :: part(:)
+    type(shaft_heat_type) :: heat
+    integer :: i
+
+    heat = build_shaft_heat(scene%machine, machine%shaft, [(part(i)%scene%thermal%present, i=1, size(part))], &
+                            [(length_of(part(i)), i=1, size(part))])
+  end function heat_parts
 
   !> Warns of a shaft that is not as thick as a bearing has it.
   !>

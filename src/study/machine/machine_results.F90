@@ -57,15 +57,15 @@ contains
   end subroutine add_shaft_line
 
   !> A bearing: its answer, a line of the log, and its fields.
-  subroutine add_bearing(number, journal, bearing, output, log, summary, grids)
+  subroutine add_bearing(number, journal, bearing, output, log, answer, summary, grids)
     integer, intent(in) :: number !! of the bearing
     type(journal_type), intent(in) :: journal !! in it
     type(bearing_system_type), intent(in) :: bearing !! at its answer
     type(output_case_type), intent(in) :: output !! what is to be written
     type(run_log_type), intent(in) :: log !! where lines go
+    type(bearing_answer_type), intent(out) :: answer !! its
     type(quantity_type), allocatable, intent(inout) :: summary(:) !! gets the answer
     type(result_grid_type), allocatable, intent(inout) :: grids(:) !! get its surfaces
-    type(bearing_answer_type) :: answer
 
     answer = bearing_answer(bearing)
     call add_rows(number, journal, answer, summary)

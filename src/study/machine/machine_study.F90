@@ -18,7 +18,9 @@ module gfb_machine_study
   use gfb_shaft, only: body_type
   use gfb_held_shaft, only: free_motions
   use gfb_machine, only: machine_type, build_machine, line_of_shaft
-  use gfb_machine_parts, only: part_type, read_parts, load_parts, check_fit, first_motions
+  use gfb_bearing_answer, only: bearing_answer_type
+  use gfb_machine_parts, only: part_type, read_parts, load_parts, heat_parts, check_fit, first_motions
+  use gfb_bearing_rows, only: add_machine_heat
   use gfb_shaft_results, only: add_shaft_results, add_bearing_places
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_transient, only: machine_transient_type, part_archive
@@ -73,6 +75,7 @@ contains
     call read_parts(scene, self%part, self%refused)
     if (allocated(self%refused)) return
     self%machine = build_machine(scene%machine, scene%unbalance%position, [(self%part(i)%scene%bearing%row, i=1, size(self%part))])
+    self%machine%heat = heat_parts(scene, self%machine, self%part)
     body = self%machine%shaft%body()
     call log%line('shaft with discs: '//text(body%mass, 5)//' kg, centre of mass at '//text(body%centre*1.0e3_wp, 5)// &
                   ' mm, transverse inertia '//text(body%transverse_inertia, 4)//' kg m2, polar '// &
@@ -285,6 +288,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type), allocatable :: grids(:)
+    type(bearing_answer_type), allocatable :: answer(:)
     type(grid_series_type), pointer :: series ! none where nothing moves
     real(wp) :: memory(1)
     integer :: i
@@ -292,15 +296,17 @@ contains
     call context%log%heading('answer')
     call add_result(summary, 'analysis', trim(scene%general%asked%word))
     call add_result(summary, 'converged', self%converged)
-    allocate (arrays(0), grids(0))
+    allocate (arrays(0), grids(0), answer(size(self%part)))
     nullify (series)
     call add_body(self%machine, summary)
     if (self%converged) call add_shaft(self, scene, arrays, grids)
     if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
-      call add_bearing(i, self%machine%journal(i), self%part(i)%solution%bearing, scene%output, context%log, summary, grids)
+      call add_bearing(i, self%machine%journal(i), self%part(i)%solution%bearing, scene%output, context%log, answer(i), summary, grids)
     end do
+    call add_result(summary, 'power_loss', sum(answer%power_loss))
+    if (self%converged) call add_machine_heat(self%machine, self%answer, answer, context%log, summary, arrays)
     if (self%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', self%onset)
     if (allocated(self%time)) then
       series => self%time%series
