@@ -177,6 +177,8 @@ def check_thrust(checks, folder):
     balance(checks, answer, content)
     without = solve(folder, "without", {**content, "bearings": {key: value[:2] for key, value in content["bearings"].items()},
                                         "machine": {"speed_rpm": SPEED}})
+    along = array(answer, "dynamics/mode_shape_z")
+    checks.that("one mode moves along the axis", numpy.sum(numpy.hypot(along[:, 0], along[:, 1]) > 0.5) == 1)
     checks.that("its tilt stiffness changes modes by more than 1 %", farthest(modes(without), modes(answer)) > 0.01)
     check_response(checks, folder, "thrust bearing", content, (JOURNAL, JOURNAL, THRUST), {})
     mirrored = copy.deepcopy(content)
@@ -212,7 +214,7 @@ def check_two_sides(checks, folder):
     double = machine(folder, thrust=[thrust(folder, "double", play)], thrust_positions=[0.01])
     single = machine(folder, thrust=[thrust(folder), thrust(folder)], thrust_positions=[0.01, 0.01], facing=[1, 1, 1, -1],
                      offset_z=[0.0, 0.0, 0.0, play])
-    answers = [solve(folder, "sides", content) for content in (double, single)]
+    answers = [solve(folder, name, content) for name, content in (("double_side", double), ("two_sides", single))]
     checks.below("two sides: place", numpy.abs(place(answers[1], 3, THRUST)/place(answers[0], 3, THRUST) - 1.0).max(), 1.0e-9)
     checks.below("two sides: force", (answers[1]["force_z_3"] - answers[1]["force_z_4"])/answers[0]["force_z_3"] - 1.0, 1.0e-9)
     checks.below("two sides: modes", farthest(modes(answers[1]), modes(answers[0])), 1.0e-9)
@@ -256,6 +258,9 @@ def check_heat(checks, folder):
     content = hot_machine(folder)
     answer = solve(folder, "hot", content)
     checks.below("energy", answer["energy_imbalance"], 1.0e-11)
+    ranks = solve(folder, "ranks", content, ranks=2)
+    checks.below("two ranks: modes", farthest(modes(ranks), modes(answer)), 1.0e-8)
+    checks.below("two ranks: temperature", (ranks["shaft_temperature_3"] - answer["shaft_temperature_3"])/30.0, 1.0e-9)
     heat = [answer[f"heat_to_shaft_{i}"] for i in (1, 2, 3)]
     out = answer["heat_from_shaft_ends"]
     checks.below("the shaft's heat", (sum(heat) - out)/answer["power_loss"], 1.0e-11)
@@ -322,6 +327,9 @@ def check_wrong(checks, folder):
     facing["bearings"] |= {"files": content["bearings"]["files"] + ["thrust.nml"], "positions": [0.03, 0.17, 0.01, 0.01],
                            "facing": [1, 1, 1, -1]}
     checks.that("no play", "leaves 0 m in all for the gaps" in solve(folder, "wrong", facing, status=1).complaint)
+    outside = machine(folder)
+    outside["bearings"]["positions"] = [0.012, 0.17]
+    checks.that("beyond the end", "reaches beyond an end of the shaft" in solve(folder, "wrong", outside, status=1).complaint)
     hot = hot_machine(folder)
     hot["bearings"]["files"][0] = journal(folder, "own", heat=0.0)
     checks.that("a shaft of its own", "the bearing has no shaft of its own" in solve(folder, "wrong", hot, status=1).complaint)

@@ -5,6 +5,7 @@ module gfb_machine_parts
   use gfb_kinds, only: wp
   use gfb_errors, only: error_type, fail
   use gfb_text, only: text
+  use gfb_units, only: micrometres
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
@@ -19,9 +20,10 @@ module gfb_machine_parts
   use gfb_bearing_solution, only: bearing_solution_type
   implicit none (type)
   private
-  public :: read_parts, load_parts, heat_parts, check_fit, first_motions
+  public :: read_parts, load_parts, heat_parts, axial_words, check_fit, first_motions
 
   real(wp), parameter :: unlike = 0.01_wp    !! diameters that differ by more do not fit [1]
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of a length [1]
   real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
 
   !> A bearing of the machine.
@@ -199,6 +201,18 @@ contains
     end associate
   end subroutine load_parts
 
+  !> How a thrust bearing begins alone.
+  pure function axial_words(scene) result(words)
+    type(scene_type), intent(in) :: scene !! of the bearing
+    character(len=:), allocatable :: words
+
+    if (scene%general%analysis%floats) then
+      words = 'axial load '//text(scene%operation%axial_load, 5)//' N'
+    else
+      words = 'begins with a gap of '//text(scene%operation%axial_gap*micrometres, 4)//' um, in the middle of the play'
+    end if
+  end function axial_words
+
   !> The heat of the shaft between the bearings that have some.
   pure function heat_parts(scene, machine, part) result(heat)
     type(scene_type), intent(in) :: scene !! of the machine
@@ -219,10 +233,18 @@ contains
     type(part_type), intent(in) :: part(:) !! its bearings
     type(run_log_type), intent(in) :: log
     type(error_type), allocatable, intent(out) :: error
+    real(wp) :: whole
     integer :: i, k
 
     associate (machine => scene%machine)
+      whole = sum(machine%length)
       do i = 1, size(part)
+        if (machine%bearing_position(i) - 0.5_wp*length_of(part(i)) < -rounding*whole .or. &
+            machine%bearing_position(i) + 0.5_wp*length_of(part(i)) > whole*(1.0_wp + rounding)) then
+          call fail(error, scene%file//': &bearings: positions('//text(i)//') = '//text(machine%bearing_position(i))// &
+                    ': the bearing, '//text(length_of(part(i)))//' m long, reaches beyond an end of the shaft')
+          return
+        end if
         do k = 1, i - 1
           if (abs(machine%bearing_position(i) - machine%bearing_position(k)) >= &
               0.5_wp*(length_of(part(i)) + length_of(part(k)))) cycle

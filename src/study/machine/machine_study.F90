@@ -19,7 +19,7 @@ module gfb_machine_study
   use gfb_held_shaft, only: free_motions
   use gfb_machine, only: machine_type, build_machine, line_of_shaft
   use gfb_bearing_answer, only: bearing_answer_type
-  use gfb_machine_parts, only: part_type, read_parts, load_parts, heat_parts, check_fit, first_motions
+  use gfb_machine_parts, only: part_type, read_parts, load_parts, heat_parts, axial_words, check_fit, first_motions
   use gfb_bearing_rows, only: add_machine_heat
   use gfb_shaft_results, only: add_shaft_results, add_bearing_places
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
@@ -91,6 +91,7 @@ contains
         if (part%scene%bearing%row%moves_across) then
           call log%line('load by levers ('//text(part%scene%operation%load(1), 5)//', '//text(part%scene%operation%load(2), 5)//') N')
         end if
+        if (part%scene%bearing%row%moves_along) call log%line(axial_words(part%scene))
         call plan_bearing(part%scene, log, part%plan)
         self%memory = self%memory + part%plan%memory
       end associate
