@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy
 
 from gfb.case import Case
 from gfb.report.answer import KELVIN, MOST, THINNEST, Results, is_number
 from gfb.report.margin import ONSET, Margin, compared
+from gfb.report.sketch import case_sketch
 from gfb.report.sketch_lines import LINE, ROOM, SIDE, Drawing, line
 
 RPM = 30.0/math.pi
@@ -258,6 +259,25 @@ def machine_picture(case: Case, sizes: dict[int, tuple[float, float]] | None = N
         return draw_machine(case, sizes).picture(WIDE) | {"words": "the machine to scale", "pads": [], "thinnest": None, "centre": None}
     except (ValueError, OverflowError, ZeroDivisionError):
         return None
+
+
+def picture_of_case(case: Case, sizes: dict[int, tuple[float, float]] | None = None) -> dict | None:
+    """The picture of a machine's case, or of a bearing's or a strip's; None where its numbers give none."""
+    return machine_picture(case, sizes) if is_machine(case) else case_sketch(case)
+
+
+def sizes_of_files(case: Case, read: Callable[[str], str]) -> dict[int, tuple[float, float]]:
+    """{bearing: (length, radius)} of the files that a case names, as far as they can be read [m]."""
+    found = {}
+    for number, name in enumerate(case.listed("bearings%files") if "bearings%files" in case else (), 1):
+        try:
+            results = Results({}, name if isinstance(name, Case) else Case.parse(read(name)))
+        except (ValueError, OSError):
+            continue
+        length, radius = results.key("bearing%length"), results.key("bearing%radius")
+        if length and radius and min(length, radius) > 0.0:
+            found[number] = (length, radius)
+    return found
 
 
 def sizes_of(tables: MachineTables | None) -> dict[int, tuple[float, float]]:

@@ -12,7 +12,7 @@ from gfb.case import Case, CaseError
 from gfb.look import HEADER
 from gfb.namelist import namelist_value
 from gfb.report.main import PAGE, svg_of
-from gfb.report.sketch import case_sketch
+from gfb.report.machine import picture_of_case, sizes_of_files
 from gfb.studio.checking import Judged, Message, check, without_use
 from gfb.studio.form import Form
 from gfb.studio.keys import read_keys
@@ -182,6 +182,12 @@ class Tab:
         except CaseError as error:
             return complain(error)
         self.known, self.untouched, self.name.value = None, text, analysis
+        for name, content in self.templates.bearings(analysis).items():
+            try:
+                await workers.io_bound(self.folder.write, name.removesuffix(CASE), content, None)
+                ui.notify(f"{name} is written: the machine's bearings", type="positive")
+            except (Refused, OSError):
+                ui.notify(f"the machine's bearings are {name} of this folder")
         self.take(text)
 
     async def open(self, name):
@@ -263,7 +269,7 @@ class Tab:
 
     def draw(self, case):
         """The sketch follows the case; half a number leaves the last one."""
-        drawn = case_sketch(case)
+        drawn = picture_of_case(case, sizes_of_files(case, self.folder.read))
         if drawn:
             self.sketch.set_content(svg_of(drawn))
 
