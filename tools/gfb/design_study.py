@@ -23,6 +23,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gfb.case import Case, CaseError
+from gfb.design_parts import DIRECTIONS, ORBIT_STEADY, ORBIT_TURNS, SPEEDS, WHIRL_SPEEDS, with_analysis
 from gfb.design_work import Part, Progress, compute_all, duration, tilt_words
 from gfb.report.answer import LAST_STATE, Results, carried_by, film_words, why_none
 from gfb.report.main import read_run, write_page
@@ -33,19 +34,9 @@ from gfb.results import read_history
 from gfb.running import Result
 from gfb.tool import RunError, draw_into_files, parser_of, say
 
-DIRECTIONS = 12                      # of the load, around the bearing
-SPEEDS = (0.5, 0.75, 1.0, 1.25)      # over the speed of the case, of capacities
-WHIRL_SPEEDS = (0.4, 0.55, 0.7, 0.85, 1.0, 1.15, 1.3)
-FREQUENCY_RATIOS = (0.25, 0.5, 1.0)  # of vibrations over the speed, where the case has none
 SMALLEST_GAP = 4.0e-6                # m: the film at which load and tilt have reached their limit, where the case has none
 GRADE = 2.5                          # mm/s, ISO 21940-11: of turbines
 IDLE = re.compile(r"&sensitivity: parameters(?:\(\d+\))? = '([\w%]+)'")  # a key whose tolerance is none of this case
-ORBIT_TURNS, ORBIT_STEADY = 60, 1.0e-3
-WORK = {"point": "the equilibrium, its stiffness and damping", "directions": f"{DIRECTIONS} equilibria", "capacity": f"a search at each of {len(SPEEDS)} speeds",
-        "misalignment": "a search for the tilt", "lift_off": "a search for the speed", "whirl": f"stiffness and damping at {len(WHIRL_SPEEDS)} speeds",
-        "orbit": f"steps in time over up to {ORBIT_TURNS} turns", "tolerances": "the equilibrium and derivatives by keys"}
-STATE = ("scene", "bearing", "pads", "ramp", "bore", "gas", "shaft_contact", "thermal", "operation", "model", "mesh", "top_foil",
-         "bump_foil", "contact", "solver", "output")
 # What a drawing leaves open, as a standard deviation: a length [m], or a part of the value.
 TOLERANCES = {"bearing%clearance": (2.0e-6, 0.0), "bump_foil%height": (1.0e-5, 0.0), "ramp%height": (2.0e-6, 0.0),
               "bump_foil%thickness": (0.0, 0.03), "bump_foil%half_length": (0.0, 0.02), "top_foil%thickness": (0.0, 0.03),
@@ -175,17 +166,6 @@ def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]
 def gap_of(case: Case, smallest_gap: float | None) -> float:
     """The film at which a limit is reached [m]."""
     return smallest_gap or (float(case["capacity%smallest_gap"]) if "capacity%smallest_gap" in case else SMALLEST_GAP)
-
-
-def with_analysis(case: Case, name: str, question: str, analysis: str, kept: Sequence[str] = (), **groups: dict[str, Any]) -> Part:
-    """A part of the study: the bearing of the case under another analysis."""
-    one = Case({group: keys for group, keys in case.groups.items() if group in (*STATE, *kept)} | groups)
-    one["scene%analysis"] = analysis
-    if analysis == "linear_dynamics" and not {"dynamics%frequencies", "dynamics%frequency_ratios"} & set(one):
-        one["dynamics%frequency_ratios"] = FREQUENCY_RATIOS
-    one["scene%title"] = f"{case.groups['scene'].get('title', '')}: {question}".lstrip(": ")
-    points = len(one.listed("sweep%values")) if "sweep%values" in one else 1
-    return Part(name, question, one, states=points if analysis in ("equilibrium", "linear_dynamics") else 0, work=WORK[name])
 
 
 def orbit_of(case: Case, grade: float, speed: float, thrust: bool, given: dict[str, Any]) -> Part:
