@@ -16,6 +16,7 @@ os.environ["MPLBACKEND"] = "Agg"
 sys.path.insert(0, str(PROJECT/"tools"))
 import gfb  # noqa: E402
 from gfb.bearing_files import names_of, renamed, with_whole_names, write_copy  # noqa: E402
+from gfb.design_machine import api_unbalance, permissible, unbalance_of  # noqa: E402
 from gfb.members import find_member, run_member  # noqa: E402
 from gfb.plot import machine as plot_machine  # noqa: E402
 from gfb.plot import machine_motions as plot_motions  # noqa: E402
@@ -170,6 +171,43 @@ class MachineTest(unittest.TestCase):
         run = read_run(self.alone.stem, None, pictures=False)
         self.assertEqual([gfb.Case.parse(text)["bearing%clearance"] for text in run["bearing_files"]], [31.8e-6, 28.0e-6])
         self.assertIn("film mesh: 32 x 4 elements", needs_of(run["case_file"], None, run["bearing_files"]))
+
+
+class DesignTest(unittest.TestCase):
+    """The study of a machine."""
+
+    def test_unbalances_of_the_standards(self):
+        """G 2.5 at 15,000 rpm leaves 1.59 um; 4 W/N with W in pounds and ounces times inches."""
+        self.assertAlmostEqual(permissible(1.0, 15000.0, 2.5), 2.5e-3/(15000.0*math.pi/30.0), places=12)
+        pound, ounce_inch = 0.45359237, 0.45359237/16.0*0.0254
+        self.assertAlmostEqual(api_unbalance(10.0*pound, 8000.0)/(4.0*10.0/8000.0*ounce_inch), 1.0, places=3)
+        case = gfb.Case({"unbalance": {"positions": (0.1, 0.2), "values": (1.0, -3.0), "angles": 0.5}})
+        self.assertEqual(unbalance_of(case, 0.15, 8.0), {"positions": (0.1, 0.2), "values": (2.0, -6.0), "angles": 0.5})
+        self.assertEqual(unbalance_of(gfb.Case(), 0.15, 8.0), {"positions": 0.15, "values": 8.0})
+
+    def test_a_study_has_the_machine_and_each_bearing_alone(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            case = write_small(folder)
+            found = gfb.design(case, folder/"study", "rotor", grade=2.5)
+            again = gfb.design(case, folder/"study", "rotor", grade=2.5, tell=(said := []).append)
+            self.assertEqual([part.stem is not None for part in found.parts], [True]*6)
+            point = found.runs["point"]
+            mass = point["summary"]["mass"]["value"]
+            unbalance = gfb.Case.read(folder/"study/rotor_point.nml")["unbalance%values"]
+            self.assertAlmostEqual(unbalance if isinstance(unbalance, float) else sum(unbalance), permissible(mass, 15000.0, 2.5), delta=1.0e-4*permissible(mass, 15000.0, 2.5))
+            rows = {question: answer for question, answer, *_ in found.rows}
+            self.assertIn("onset of whirl at ", rows["modes and response over the speed"])
+            self.assertIn("grade G 2.5", " ".join(rows))
+            alone = gfb.Case.read(folder/"study/rotor_whirl_1.nml")
+            load = abs(alone["operation%load"][0])
+            self.assertAlmostEqual(alone["rotor%mass"]*9.81, load, delta=1.0e-9*load)
+            loads = [abs(gfb.Case.read(folder/f"study/rotor_capacity_{number}.nml")["operation%load"][0]) for number in (1, 2)]
+            self.assertAlmostEqual(sum(loads), 9.81*mass, delta=1.0e-3)
+            self.assertTrue(all("is there already" in line for line in said), said)
+            self.assertEqual(again.verdict, found.verdict)
+            self.assertIn("this machine", found.verdict)
+            self.assertEqual({one.where for one in found.margins if one.subject == "load"}, {"bearing 1 alone", "bearing 2 alone"})
 
 
 class FilesTest(unittest.TestCase):

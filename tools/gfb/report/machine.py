@@ -29,6 +29,7 @@ class MachineTables:
     bearings: numpy.ndarray   # (bearing; z, length, radius, clearance, film that is wanted) [m]
     amplitude: numpy.ndarray  # of each bearing's response to unbalance at the last point [m]; empty without one
     stress: float | None      # of the shaft's outer fibre [Pa]
+    over_points: numpy.ndarray = dataclasses.field(default_factory=lambda: numpy.zeros((0, 0)))  # (point, bearing): amplitudes [m]
 
 
 def is_machine(case: Case) -> bool:
@@ -41,12 +42,12 @@ def read_tables(file) -> MachineTables | None:
     if "shaft/bearings" not in file:
         return None
     bearings = file["shaft/bearings"][...]
-    amplitude = numpy.zeros(0)
+    amplitudes = numpy.zeros((0, len(bearings)))
     if "dynamics/response" in file:
-        table = file["dynamics/response"][...]
-        table = table.reshape(-1, 5) if "history/speed_rpm" not in file else table[-1].reshape(-1, 5)
-        amplitude = largest_radius(table[:len(bearings)])
-    return MachineTables(bearings, amplitude, float(file["shaft/sections"][:, 6].max()))
+        points = len(file["history/speed_rpm"]) if "history/speed_rpm" in file else 1
+        table = file["dynamics/response"][...].reshape(points, -1, 5)
+        amplitudes = numpy.array([largest_radius(one[:len(bearings)]) for one in table])
+    return MachineTables(bearings, amplitudes[-1] if len(amplitudes) else numpy.zeros(0), float(file["shaft/sections"][:, 6].max()), amplitudes)
 
 
 def largest_radius(table: numpy.ndarray) -> numpy.ndarray:

@@ -42,6 +42,7 @@ SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bu
 OF_MACHINES = {"machine": "the machine to scale, its static line, moments along it", "shapes": "its modes in space", "response": "response to unbalance",
                "critical": "undamped critical speeds over the stiffness of the bearings"}
 SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency", "campbell": "the rotor's modes over the speed"}
+OVER_POINTS = ("campbell", "response")  # pictures of a machine's sweep
 SECONDS = 300     # no picture takes that long
 MOST_ROWS = 400   # of a table of points
 SAME = 1.0e-9     # of the largest result of a unit: numbers that differ less are one
@@ -139,7 +140,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
     return about | {
         "verdict": sentence(margins, why, about["open_questions"]), "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
         "converged": converged, "ended": why, "heads": heads, "rows": rows if points > 1 else [], "left_out": max(0, points - MOST_ROWS),
-        "case_file": case_file, "bearing_files": bearings, "used": used, "origin": origin, "needs": needs_of(case_file, gfb, bearings) if pictures else "", "pictures": drawings}
+        "case_file": case_file, "bearing_files": bearings, "amplitudes": machine.over_points if machine else None, "used": used, "origin": origin, "needs": needs_of(case_file, gfb, bearings) if pictures else "", "pictures": drawings}
 
 
 def swept_keys(case, last):
@@ -221,7 +222,7 @@ def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0):
                    for words, more in (("the film", []), ("pressure and film thickness around the shaft", ["--show", "polar"]))]
     wanted += [(words, [f"{stem}.h5", "--show", show]) for show, words in SHOWN.items() if show in shows]
     if curve and (points > 1 or "transient" in shows):
-        wanted = [one for one in wanted if one[1] == [f"{stem}.h5"]]
+        wanted = [one for one in wanted if one[1] == [f"{stem}.h5"] or bearings and one[1][-1] in OVER_POINTS]
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder)/"picture.png"
         there = [(words, arguments) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]
