@@ -16,7 +16,7 @@ import numpy
 from gfb_run import Checks, run_file, solve, write_case
 from machine import REFERENCE, machine_case
 
-COARSE = (40, 4)
+COARSE, MIDDLE = (40, 4), (60, 8)
 SETTLED = 0.015  # when what is damped most has died out [s]
 AXES = ("x", "y")
 CLEARANCE, HALF_WIDTH, WEIGHT = 31.8e-6, 19.05e-3, 44.0  # of M1 [m], [m], [N]
@@ -135,7 +135,7 @@ def turn_of(table, place, axis, turns=1.0):
     return motion.mean(), 2.0*(motion*numpy.exp(-1j*angle)).mean()
 
 
-def check_orbits(checks, folder, mesh=(120, 16)):
+def check_orbits(checks, folder, mesh=MIDDLE):
     """Orbits by unbalance as two programs have them, two lengths of steps extrapolated."""
     for row in REFERENCE["orbit"]:
         found = []
@@ -152,7 +152,7 @@ def check_orbits(checks, folder, mesh=(120, 16)):
         checks.below(f"{name}: mean", numpy.abs(mean - known).max()/numpy.abs(known).max(), 10.0*row["mean"]["agreement"])
 
 
-def check_run_up(checks, folder, mesh=(120, 16)):
+def check_run_up(checks, folder, mesh=MIDDLE):
     """A run-up through a bending critical speed, two tolerances of steps."""
     for row in REFERENCE["run_up"]:
         content = moving_case(folder, row["machine"], row["first_speed_rpm"],
