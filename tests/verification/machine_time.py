@@ -14,6 +14,7 @@ import h5py
 import numpy
 
 from gfb_run import Checks, run_file, solve, write_case
+import machine_parts
 from machine import REFERENCE, machine_case
 
 COARSE, MIDDLE = (40, 4), (60, 8)
@@ -119,6 +120,33 @@ def check_restart(checks, folder):
     checks.that(f"resumed: columns that differ {differ}", not differ)
 
 
+def check_all_kinds(checks, folder):
+    """Nothing moves, whatever holds the shaft: a thrust bearing, films with heat, a sleeve on springs."""
+    supports = {"support_mass": [0.0, 0.3], "support_stiffness_x": [0.0, 2.0e7], "support_stiffness_y": [0.0, 3.0e7]}
+    for name, content in (("thrust", machine_parts.hot_machine(folder)), ("support", machine_parts.machine(folder, None, **supports))):
+        still = {group: keys for group, keys in content.items() if group not in ("dynamics", "unbalance")}
+        still |= {"scene": {"analysis": "transient"}, "transient": {"turns": 0.3, "steps_per_turn": 40}}
+        answer = solve(folder, f"still_{name}", still)
+        for axis in AXES:
+            checks.below(f"{name}: {axis} at rest", answer[f"orbit_{axis}_bearing_2"]/CLEARANCE, 3.0e-8)
+    pushed = still | {"transient": still["transient"] | {"pulse": (1.0e-3, 0.0), "pulse_length": 5.0e-4}}
+    checks.that("support: a push moves it", solve(folder, "pushed", pushed)["orbit_x_bearing_2"] > 1.0e-3*CLEARANCE)
+
+
+def check_wrong(checks, folder):
+    """Mistakes are named with their rule."""
+    content = moving_case(folder, "M1", 10000.0, {"turns": 0.1, "steps_per_turn": 50})
+    for words, keys in (("needs pulse_position", {"couple_pulse": (1.0e-3, 0.0), "pulse_length": 1.0e-3}),
+                        ("has no use beside &shaft", {"start_load": (1.0, 0.0)}), ("has no use beside &shaft", {"orbit_radius": 1.0e-6}),
+                        ("or duration must say how long", {"duration": 1.0})):
+        answer = solve(folder, "wrong", content | {"transient": content["transient"] | keys}, status=1)
+        checks.that(f"{next(iter(keys))}: {words}", words in answer.complaint)
+    touching = content | {"transient": {"duration": 0.02, "start_gravity": (-9.81, 0.0)}}
+    touching["machine"] = content["machine"] | {"gravity": (-900.0, 0.0)}
+    answer = solve(folder, "touching", touching, status=2)
+    checks.that("touch-down names bearing and time", "touches down in bearing 2 at time" in answer["reason"])
+
+
 def check_ranks(checks, folder):
     """One rank and two agree."""
     content = moving_case(folder, "M1", 10000.0, {"turns": 0.2, "steps_per_turn": 50}, REFERENCE["orbit"][0]["unbalance"])
@@ -178,7 +206,7 @@ def main():
     """Runs all checks."""
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in ((check_orbits, check_run_up) if "--long" in sys.argv else (check_push, check_rest, check_restart, check_ranks)):
+        for check in ((check_orbits, check_run_up) if "--long" in sys.argv else (check_push, check_rest, check_all_kinds, check_restart, check_ranks, check_wrong)):
             check(checks, pathlib.Path(name))
     checks.close()
 

@@ -9,12 +9,14 @@ module gfb_machine_study
   use gfb_quantity, only: quantity_type, quantity_word
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
+  use gfb_machine_case, only: machine_case_type
   use gfb_memory_check, only: check_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
   use gfb_c_library, only: peak_memory
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_builder, only: check_meshes
   use gfb_bearing_solution, only: new_solution
+  use gfb_motion_study, only: stop_heat
   use gfb_shaft, only: body_type
   use gfb_held_shaft, only: free_motions
   use gfb_machine, only: machine_type, build_machine, line_of_shaft
@@ -55,6 +57,7 @@ module gfb_machine_study
     type(machine_motions_type), allocatable :: motions(:) !! small ones about each answer
     type(history_row_type), allocatable :: history(:)     !! of a sweep
     type(machine_transient_type), allocatable :: time !! its way, where that is asked for
+    real(wp), allocatable :: moving_force(:) !! on the machine over time: weight and loads [N], [N m]
     real(wp) :: onset = 0.0_wp !! speed from which on it whirls; 0: none was found [rpm]
     type(error_type), allocatable :: refused !! what is wrong with the files of the bearings
   contains
@@ -64,17 +67,40 @@ module gfb_machine_study
 
 contains
 
+  !> The machine under a gravity.
+  function machine_of(self, scene, gravity) result(machine)
+    class(machine_study_type), intent(in) :: self !! its bearings are read
+    type(scene_type), intent(in) :: scene !! what is asked for
+    real(wp), intent(in) :: gravity(2) !! [m/s^2]
+    type(machine_type) :: machine
+    type(machine_case_type) :: asked
+    real(wp), allocatable :: places(:)
+    integer :: i
+
+    asked = scene%machine
+    asked%gravity = gravity
+    places = scene%unbalance%position
+    if (scene%transient%pulse_position >= 0.0_wp) places = [places, scene%transient%pulse_position]
+    machine = build_machine(asked, places, [(self%part(i)%scene%bearing%row, i=1, size(self%part))])
+  end function machine_of
+
   !> Reads the files of the bearings, and says what the machine is.
   subroutine prepare_machine(self, scene, log)
     class(machine_study_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
+    real(wp), allocatable :: later(:)
     type(body_type) :: body
     integer :: i
 
     call read_parts(scene, self%part, self%refused)
     if (allocated(self%refused)) return
-    self%machine = build_machine(scene%machine, scene%unbalance%position, [(self%part(i)%scene%bearing%row, i=1, size(self%part))])
+    self%machine = machine_of(self, scene, scene%machine%gravity)
+    if (scene%transient%present) then
+      later = self%machine%force
+      self%machine = machine_of(self, scene, scene%transient%start_gravity)
+      call move_alloc(later, self%moving_force)
+    end if
     self%machine%heat = heat_parts(scene, self%machine, self%part)
     body = self%machine%shaft%body()
     call log%line('shaft with discs: '//text(body%mass, 5)//' kg, centre of mass at '//text(body%centre*1.0e3_wp, 5)// &
@@ -164,6 +190,10 @@ contains
       if (i > 1) call look_for_onset(self, scene, i, context%log)
     end do
     if (scene%transient%present .and. .not. self%reason%is_given()) then
+      do i = 1, merge(0, size(self%part), context%restart%continues)
+        call stop_heat(self%part(i)%solution)
+      end do
+      self%machine%force = self%moving_force
       allocate (self%time)
       call self%time%run(scene, self%part, self%machine, self%answer, self%bearing, context, self%reason, error)
       if (allocated(error)) return
