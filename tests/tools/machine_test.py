@@ -20,6 +20,7 @@ from gfb.design_machine import api_unbalance, permissible, unbalance_of  # noqa:
 from gfb.members import find_member, run_member  # noqa: E402
 from gfb.plot import machine as plot_machine  # noqa: E402
 from gfb.plot import machine_motions as plot_motions  # noqa: E402
+from gfb.plot import machine_time as plot_time  # noqa: E402
 from gfb.plot.machine_motions import pyplot  # noqa: E402
 from gfb.program import find_program  # noqa: E402
 from gfb.report.answer import Results  # noqa: E402
@@ -91,6 +92,25 @@ class MachineTest(unittest.TestCase):
         self.assertEqual(len([one for one in figure.axes[0].lines if len(one.get_xdata()) == 3]), 6)  # x and y at two bearings and a disc
         figure = self.drawn(self.alone, plot_motions.draw_response)
         self.assertEqual([chart.get_title().split("\n")[0] for chart in figure.axes], ["bearing 1", "bearing 2", "disc"])
+
+    def test_a_machine_over_time(self):
+        case = write_small(self.folder)
+        del case.groups["dynamics"]
+        case["scene%analysis"], case["machine%stations"], case["machine%speed_rpm"] = "transient", (0.1,), 10000.0
+        case.groups["transient"] = {"turns": 4.0, "steps_per_turn": 40}
+        moved = gfb.run(case, self.folder, "moved")
+        with h5py.File(f"{moved.stem}.h5", "r") as file:
+            orbits = plot_time.draw(pathlib.Path("moved.h5"), file, None).axes
+            self.assertEqual([chart.get_title().split(":")[0] for chart in orbits], ["bearing 1", "bearing 2", "disc 1", "station 1"])
+            self.assertAlmostEqual(orbits[0].patches[0].radius, 31.8, places=6)
+            way = orbits[2].lines[0].get_data()
+            numpy.testing.assert_allclose(way[0], 1.0e6*file["transient/x_disc_1"][...])
+            thinnest = plot_time.draw(pathlib.Path("moved.h5"), file, "thinnest").axes[0]
+            self.assertEqual(len([line for line in thinnest.lines if line.get_label().startswith("bearing")]), 2)
+            spectrum = plot_time.draw(pathlib.Path("moved.h5"), file, "waterfall").axes[0]
+            self.assertIn("of y of ", spectrum.get_title())
+            points = plot_time.draw(pathlib.Path("moved.h5"), file, "bifurcation").axes
+            self.assertEqual([len(chart.lines[0].get_xdata()) for chart in points], [5]*4)
 
     def test_critical_speeds_are_those_of_closed_forms(self):
         """A disc on a stiff shaft in its middle: sqrt(2 k/m); a stiff spring: the shaft held at both ends."""

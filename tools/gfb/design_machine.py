@@ -51,6 +51,7 @@ def parts_of_machine(case: Case, smallest_gap: float | None, gap: float, grade: 
     for number in range(1, count + 1):
         if smallest_gap or f"bearing_{number}%capacity%smallest_gap" not in one:
             one[f"bearing_{number}%capacity%smallest_gap"] = gap
+    one.groups.get("dynamics", {}).pop("response_speeds", None)  # those of the study are others
     one["scene%analysis"], one.groups["unbalance"] = "linear_dynamics", unbalance_of(case, centre, permissible(mass, speed, grade))
     parts = [titled(case, one, "point", f"at {speed:,.0f} rpm under balance grade G {grade:g}")]
     swept = one.copy()

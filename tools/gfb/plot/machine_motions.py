@@ -156,9 +156,9 @@ def draw_response(path, file):
         stop(f"{path}: no response to unbalance; it comes with &unbalance and analysis = 'linear_dynamics'")
     machine = drawing.read(path, file)
     table = file["dynamics/response"][...]
-    if "history/speed_rpm" not in file:
+    speed = response_speeds(file)
+    if speed is None:
         return draw_ellipses(path, machine, table)
-    speed = file["history/speed_rpm"][...]
     rising = numpy.argsort(speed, kind="stable")
     speed, table = speed[rising], table[rising].reshape(len(speed), -1, PLACE)
     figure, (above, below) = pyplot.subplots(2, 1, figsize=(7.4, 7.4), sharex=True, layout="constrained")
@@ -173,11 +173,31 @@ def draw_response(path, file):
         onset = float(file["summary/onset_speed_rpm"][()])
         for chart in (above, below):
             chart.axvline(onset, color="C3", linewidth=1.0, label=f"onset {onset:,.0f} rpm: beyond it whirls" if chart is above else None)
+    for number, critical in enumerate(critical_speeds_of(file), 1):
+        for chart in (above, below):
+            chart.axvline(critical, color="k", linestyle=":", linewidth=1.0, label=f"critical speed {number}, {critical:,.0f} rpm" if chart is above else None)
     above.legend(fontsize=8, ncols=2)
     for chart in (above, below):
         chart.grid(alpha=0.3)
     figure.suptitle(f"{case_name(path)}: response to unbalance", fontsize=11)
     return figure
+
+
+def response_speeds(file):
+    """The speeds of the response [rpm]; None where it is at one."""
+    for name in ("dynamics/response_speed", "history/speed_rpm"):
+        if name in file:
+            return file[name][...].ravel()
+    return None
+
+
+def critical_speeds_of(file):
+    """Those that were found [rpm]."""
+    summary = file["summary"]
+    found: list[float] = []
+    while f"critical_speed_{len(found) + 1}" in summary:
+        found.append(float(summary[f"critical_speed_{len(found) + 1}"][()]))
+    return found
 
 
 def draw_ellipses(path, machine, table):

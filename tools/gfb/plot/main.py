@@ -53,7 +53,7 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
 from gfb.files import fresh  # noqa: E402
-from gfb.plot import animation, dynamics, foil, heat, machine, machine_motions, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot import animation, dynamics, foil, heat, machine, machine_motions, machine_time, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.colours import round_numbers  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, step_words  # noqa: E402
@@ -166,7 +166,7 @@ def draw(options, paths, files):
     if options.show in transient.KINDS or transient.is_transient(file) and not (options.show or options.columns):
         if len(files) > 1 or options.step or options.columns:
             stop("a shaft's motion is drawn of one file, without --step and columns")
-        return transient.draw(path, file, options.show)
+        return (machine_time if machine.is_machine(file) else transient).draw(path, file, options.show)
     if options.show == polar.KIND:
         return draw_polar(options, path, file)
     if options.show == heat.KIND:

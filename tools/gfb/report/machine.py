@@ -16,6 +16,7 @@ from gfb.report.sketch_lines import LINE, ROOM, SIDE, Drawing, line
 
 RPM = 30.0/math.pi
 WIDE, MIDDLE, TALL = SIDE + ROOM, 100.0, 78.0  # of the picture: its width, where the axis is, largest radius
+SAME = 1.0e-9        # of a speed: one that differs less is it
 LINEAR = 1.0/3.0     # of the thinnest film: a larger amplitude is more than a linear theory may say
 SLEEVE = 7.0         # thickness of a sleeve
 STEEL = 7800.0       # [kg/m3], of which discs are drawn
@@ -27,7 +28,7 @@ class MachineTables:
     """What of a machine's result file stands in no summary."""
 
     bearings: numpy.ndarray   # (bearing; z, length, radius, clearance, film that is wanted) [m]
-    amplitude: numpy.ndarray  # of each bearing's response to unbalance at the last point [m]; empty without one
+    amplitude: numpy.ndarray  # of each bearing's response to unbalance at the machine's speed [m]; empty without one
     stress: float | None      # of the shaft's outer fibre [Pa]
     over_points: numpy.ndarray = dataclasses.field(default_factory=lambda: numpy.zeros((0, 0)))  # (point, bearing): amplitudes [m]
 
@@ -37,17 +38,19 @@ def is_machine(case: Case) -> bool:
     return "shaft" in case.groups
 
 
-def read_tables(file) -> MachineTables | None:
-    """Those of an open case file; None where there are none."""
+def read_tables(file, case: Case) -> MachineTables | None:
+    """Those of an open case file, whose echo is the case; None where there are none."""
     if "shaft/bearings" not in file:
         return None
     bearings = file["shaft/bearings"][...]
-    amplitudes = numpy.zeros((0, len(bearings)))
+    amplitudes, amplitude = numpy.zeros((0, len(bearings))), numpy.zeros(0)
     if "dynamics/response" in file:
-        points = len(file["history/speed_rpm"]) if "history/speed_rpm" in file else 1
-        table = file["dynamics/response"][...].reshape(points, -1, 5)
+        own = float(file["history/speed_rpm"][-1]) if "history/speed_rpm" in file else float(case["machine%speed_rpm"])
+        speeds = next((file[name][...].ravel() for name in ("dynamics/response_speed", "history/speed_rpm") if name in file), numpy.array([own]))
+        table = file["dynamics/response"][...].reshape(len(speeds), -1, 5)
         amplitudes = numpy.array([largest_radius(one[:len(bearings)]) for one in table])
-    return MachineTables(bearings, amplitudes[-1] if len(amplitudes) else numpy.zeros(0), float(file["shaft/sections"][:, 6].max()), amplitudes)
+        amplitude = amplitudes[numpy.abs(speeds - own).argmin()] if numpy.abs(speeds - own).min() <= SAME*abs(own) else amplitude
+    return MachineTables(bearings, amplitude, float(file["shaft/sections"][:, 6].max()), amplitudes)
 
 
 def largest_radius(table: numpy.ndarray) -> numpy.ndarray:
@@ -166,6 +169,12 @@ def machine_glance(results: Results) -> Iterator[tuple[str, str, str, bool]]:
     for one in margins:
         if one.subject in ("whirl", "unbalance", "temperature", "stress"):
             yield one.subject, one.value, one.against, one.is_broken
+    speed, number = results.key("machine%speed_rpm"), 1
+    while (critical := results.value(f"critical_speed_{number}")) is not None:
+        factor = results.value(f"amplification_factor_{number}")
+        yield (f"critical speed {number}", f"{critical:,.0f} rpm", "; ".join(filter(None, (
+            f"amplification factor {factor:.3g}" if factor is not None else "", f"the speed is {speed/critical:.3g} times it" if speed else ""))), False)
+        number += 1
     mass, centre = results.value("mass"), results.value("centre_of_mass")
     if mass is not None and centre is not None:
         yield "shaft with discs", f"{mass:.4g} kg", f"centre of mass at {1.0e3*centre:.4g} mm", False

@@ -119,7 +119,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         bearings = [text_of(file[f"scene/bearing_{number}"][()]) for number in range(1, MOST_ROWS) if f"scene/bearing_{number}" in file]
         used = Case.parse(text_of(file["scene/used"][()]))
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
-        machine = read_tables(file)
+        machine = read_tables(file, used)
         shows = [name for name in ("contact", "dynamics", "transient") if name in file and not (machine and name == "dynamics")] + ["heat"]*(HEATED in table) + ["ring"]*("axial_gap" in table)
         shows += ["campbell"]*("speed_rpm" in table and "dynamics/mode_frequency" in file)
         shows += ["machine"]*bool(machine) + ["shapes"]*(machine is not None and "dynamics/mode_shape" in file)
@@ -214,6 +214,7 @@ def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0):
             wanted.append(("heat at the last point", [f"{stem}.h5", "--show", "heat", "--step", str(points)]))
     if "transient" in shows:
         wanted.append(("orbit and thinnest film", [f"{stem}.h5"]))
+        wanted += [("thinnest films over time", [f"{stem}.h5", "--show", "thinnest"])]*(bearings > 0)
     elif points > 1:
         wanted.insert(0, ("along the points or load steps", [f"{stem}.h5"]))
     wanted[:0] = [(words, [f"{stem}.h5", "--show", show]) for show, words in OF_MACHINES.items() if show in shows]
