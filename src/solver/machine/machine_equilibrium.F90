@@ -12,7 +12,7 @@
 !>
 !> Where the shaft conducts heat its temperatures T under the bearings are found with the motions: to
 !> a stand T, to f the heat q that the film gives to the shaft, to S and g the shaft's conductances.
-!> How forces and heat follow T is made by a difference.
+!> How forces and heat of such a bearing follow both is made by differences.
 module gfb_machine_equilibrium
   use gfb_kinds, only: wp
   use gfb_text, only: text
@@ -46,7 +46,10 @@ module gfb_machine_equilibrium
   real(wp), parameter :: slow = 0.3_wp          !! of the imbalance that is left by a step with which Z is made anew [1]
   real(wp), parameter :: temperature_size = 200.0_wp !! steps of a temperature are measured by [K]
   real(wp), parameter :: least_power = 1.0e-3_wp !! that heat is measured by [W]
-  real(wp), parameter :: warmer = 0.5_wp !! shaft by which derivatives by its temperature are made [K]
+  real(wp), parameter :: difference = 1.0e-3_wp !! of a motion or temperature over its size, for derivatives [1]
+  real(wp), parameter :: progress = 0.95_wp !! imbalance over the best before, in so many steps:
+  integer, parameter :: most_idle = 8
+  real(wp), parameter :: least_share = 0.1_wp !! of a step within its limits: less is taken whatever it does [1]
   real(wp), parameter :: shortest = 1.0e-3_wp   !! share of a step that is tried [1]
 
   !> A bearing of the machine, with its solver.
@@ -159,7 +162,8 @@ contains
     type(machine_equilibrium_type), intent(out) :: answer
     type(film_type), allocatable :: before(:)
     real(wp), allocatable :: stiffness(:, :), step(:), left(:), from(:), size_of(:), of_force(:)
-    real(wp) :: share, norm, norm_before
+    real(wp) :: share, norm, norm_before, best
+    integer :: idle !! steps since the imbalance was last less than the best before by some part
     logical :: regular, done
 
     answer%reason = ''
@@ -172,10 +176,12 @@ contains
     call set_sizes(machine, bearing, size_of, of_force)
     call move_all(machine, bearing, answer%unknown, answer, regular)
     if (.not. regular) return
-    call linearise_all(machine, bearing, answer)
+    call linearise_all(machine, bearing, size_of, answer)
     if (answer%reason /= '') return
     left = imbalance_of(answer)
     norm = norm2(left/of_force)
+    best = norm
+    idle = 0
     do while (answer%steps < most_steps)
       if (stop_agreed()) then
         answer%reason = stop_words()
@@ -193,15 +199,19 @@ contains
       before = answer%film
       from = answer%unknown
       norm_before = norm
-      call take_step(machine, bearing, step, share, answer)
+      call take_step(machine, bearing, step, max(norm, balanced)*of_force, share, answer)
       if (answer%reason /= '') return
       answer%steps = answer%steps + 1
       left = imbalance_of(answer)
       norm = norm2(left/of_force)
       call log%detail('machine: step '//text(answer%steps)//', share '//text(share, 3)//', imbalance '//text(norm, 3))
       if (done .or. norm < balanced*1.0e-2_wp) exit
-      if (norm > slow*norm_before .and. share >= 1.0_wp) then
-        call linearise_all(machine, bearing, answer)
+      idle = idle + 1
+      if (norm < progress*best) idle = 0
+      if (idle == 0) best = norm
+      if (idle > most_idle) exit
+      if (norm > (1.0_wp - (1.0_wp - slow)*share)*norm_before) then ! less than a part of what was to go went
+        call linearise_all(machine, bearing, size_of, answer)
         if (answer%reason /= '') return
       else
         call learn(from, before, size_of, answer)
@@ -209,8 +219,23 @@ contains
     end do
     call log%is_on('')
     answer%converged = norm < balanced
-    if (.not. answer%converged) answer%reason = 'shaft and films did not come to balance in '//text(answer%steps)//' steps'
+    if (.not. answer%converged) answer%reason = what_is_left(machine, answer, norm)
   end subroutine find_machine_equilibrium
+
+  !> Says that shaft and films did not come to balance, and how hot the shaft was.
+  pure function what_is_left(machine, answer, norm) result(words)
+    type(machine_type), intent(in) :: machine
+    type(machine_equilibrium_type), intent(in) :: answer
+    real(wp), intent(in) :: norm !! imbalance over the load [1]
+    character(len=:), allocatable :: words
+    integer :: at
+
+    words = 'shaft and films did not come to balance in '//text(answer%steps)//' steps, '//text(norm, 2)//' of the load is left'
+    if (.not. machine%heat%present) return
+    at = maxloc(answer%temperature, 1)
+    words = words//'; the shaft has '//text(answer%temperature(at), 4)//' K under bearing '// &
+            text(findloc(machine%heat%at, at, 1))//': it may warm up without an end'
+  end function what_is_left
 
   !> Motions, and temperatures where the shaft conducts, in one list, with what the shaft alone makes of them.
   subroutine gather(machine, bearing, motion, answer)
@@ -345,28 +370,34 @@ contains
     action = [action, answer%heat%whole%to_shaft]
   end function film_action
 
-  !> Takes a step, or as much of it as all bearings can follow.
-  subroutine take_step(machine, bearing, step, share, answer)
+  !> Takes a step, or as much of it as all bearings can follow, and as makes less of the imbalance; a small part is taken anyhow.
+  subroutine take_step(machine, bearing, step, bound, share, answer)
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:)
-    real(wp), intent(in) :: step(:) !! of all motions and temperatures [m], [rad], [K]
-    real(wp), intent(inout) :: share !! of it that is taken [1]
+    real(wp), intent(in) :: step(:)  !! of all motions and temperatures [m], [rad], [K]
+    real(wp), intent(in) :: bound(:) !! the imbalance is not to be more, all of it together, each over its own [N], [N m], [W]
+    real(wp), intent(inout) :: share !! of the step that is taken [1]
     type(machine_equilibrium_type), intent(inout) :: answer
-    real(wp) :: from(size(step))
+    real(wp) :: from(size(step)), first
     logical :: moved
 
     from = answer%unknown
+    first = share
     do
       call move_all(machine, bearing, from + share*step, answer, moved)
-      if (moved .or. share < shortest) return
+      if (.not. moved .and. share < shortest) return
+      if (moved .and. share < least_share*first) return
+      if (moved) moved = norm2(imbalance_of(answer)/bound) <= 1.0_wp
+      if (moved) return
       share = 0.5_wp*share
     end do
   end subroutine take_step
 
   !> Z of each journal.
-  subroutine linearise_all(machine, bearing, answer)
+  subroutine linearise_all(machine, bearing, size_of, answer)
     type(machine_type), intent(in) :: machine
     type(machine_bearing_type), intent(inout) :: bearing(:)
+    real(wp), intent(in) :: size_of(:) !! of motions and temperatures [m], [rad], [K]
     type(machine_equilibrium_type), intent(inout) :: answer
     real(wp), allocatable :: stiffness(:, :)
     logical :: found
@@ -374,47 +405,54 @@ contains
 
     do i = 1, size(bearing)
       associate (film => answer%film(i))
-        call find_stiffness(bearing(i), machine%journal(i), stiffness, found)
-        if (.not. found) answer%reason = 'bearing '//text(i)//': its linearised equations cannot be factorized'
-        if (found .and. has_heat(machine, i)) call add_heat_column(machine, i, bearing(i), film%force, stiffness, answer%reason)
+        if (has_heat(machine, i)) then
+          call find_differences(machine, i, bearing(i), film%force, answer%unknown(film%at), size_of(film%at), stiffness, answer%reason)
+        else
+          call find_stiffness(bearing(i), machine%journal(i), stiffness, found)
+          if (.not. found) answer%reason = 'bearing '//text(i)//': its linearised equations cannot be factorized'
+        end if
         if (answer%reason /= '') return
         film%stiffness = stiffness
       end associate
     end do
   end subroutine linearise_all
 
-  !> Behind Z of a bearing, how its forces and its heat follow the shaft's temperature, by a difference. How its heat follows its
-  !> journal is left to what steps teach.
-  subroutine add_heat_column(machine, number, one, action, stiffness, reason)
+  !> Z of a bearing with heat, by differences: temperatures of film and foils follow its journal and the shaft's temperature.
+  subroutine find_differences(machine, number, one, action, unknown, size_of, stiffness, reason)
     type(machine_type), intent(in) :: machine
     integer, intent(in) :: number !! of the bearing
     type(machine_bearing_type), intent(inout) :: one !! is left as it is
-    real(wp), intent(in) :: action(:) !! of its film now [N], [N m], [W]
-    real(wp), allocatable, intent(inout) :: stiffness(:, :) !! Z [SI]
+    real(wp), intent(in) :: action(:)  !! of its film now [N], [N m], [W]
+    real(wp), intent(in) :: unknown(:) !! what it feels, motions and temperature [m], [rad], [K]
+    real(wp), intent(in) :: size_of(:) !! of these [m], [rad], [K]
+    real(wp), allocatable, intent(out) :: stiffness(:, :) !! Z [SI]
     character(len=:), allocatable, intent(inout) :: reason
     type(saved_state_type) :: state
-    real(wp), allocatable :: larger(:, :)
     character(len=:), allocatable :: why
-    real(wp) :: temperature
+    real(wp) :: place(size(unknown) - 1), move
     logical :: moved
-    integer :: n
+    integer :: k, n
 
-    n = size(stiffness, 1)
-    allocate (larger(n + 1, n + 1), source=0.0_wp)
-    larger(:n, :n) = stiffness
+    n = size(unknown)
+    allocate (stiffness(n, n))
     call state%save(one%bearing)
     associate (shaft => one%bearing%heat%shaft, coordinate => machine%journal(number)%coordinate)
-      temperature = shaft%temperature
-      shaft%temperature = temperature + warmer
-      call move_journal(one, coordinate, one%bearing%point%place(coordinate), machine%speed, moved, why)
-      if (moved) larger(:, n + 1) = (action - film_action(machine, number, one%bearing))/warmer
-      shaft%temperature = temperature
+      do k = 1, n
+        move = difference*size_of(k)
+        place = one%bearing%point%place(coordinate)
+        if (k < n) place(k) = place(k) - move ! the journal moves, not the sleeve
+        if (k == n) shaft%temperature = unknown(n) + move
+        call move_journal(one, coordinate, place, machine%speed, moved, why)
+        if (moved) stiffness(:, k) = (action - film_action(machine, number, one%bearing))/move
+        shaft%temperature = unknown(n)
+        call state%restore(one%bearing)
+        if (moved) cycle
+        reason = 'bearing '//text(number)//', as near as derivatives are taken: '//why
+        exit
+      end do
     end associate
-    call state%restore(one%bearing)
     call state%destroy()
-    if (.not. moved) reason = 'bearing '//text(number)//' with a shaft warmer by '//text(warmer)//' K: '//why
-    call move_alloc(larger, stiffness)
-  end subroutine add_heat_column
+  end subroutine find_differences
 
   !> Z of all motions and temperatures.
   pure function stiffness_of(answer) result(stiffness)
