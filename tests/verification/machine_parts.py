@@ -208,6 +208,24 @@ def balance(checks, answer, content):
     checks.below("moments", numpy.abs(moment + (loads["moments_x"] - arm*loads["forces_y"], 0.0)).max()/(0.1*weight), 1.0e-9)
 
 
+def check_one_journal(checks, folder):
+    """A shaft in one journal bearing, held against tilting by that and by a thrust bearing."""
+    content = machine(folder, thrust=[thrust(folder)], thrust_positions=[0.01])
+    content["bearings"] = {"files": ["journal.nml", "thrust.nml"], "positions": [0.1, 0.01]}
+    del content["unbalance"], content["dynamics"]
+    content["scene"]["analysis"] = "equilibrium"
+    answer = solve(folder, "one", content)
+    weight, loads = 9.81*answer["mass"], content["loads"]
+    checks.below("one journal: force", (answer["force_x_1"] + weight)/weight, 1.0e-10)
+    # Moments about the journal: of the weight, the load, and both films.
+    arm = answer["centre_of_mass"] - 0.1
+    checks.below("one journal: about x", (answer["torque_x_1"] + answer["torque_x_2"] + loads["moments_x"]
+                                          - (0.2 - 0.1)*loads["forces_y"])/(0.1*weight), 1.0e-9)
+    checks.below("one journal: about y", (answer["torque_y_1"] + answer["torque_y_2"] - arm*weight)/(0.1*weight), 1.0e-9)
+    content["machine"]["journal_tilts"] = False
+    checks.that("one journal without tilts", "one journal bearing holds no shaft" in solve(folder, "wrong", content, status=1).complaint)
+
+
 def check_two_sides(checks, folder):
     """Two thrust bearings that face each other are one with `axial_play`; they share the runner's motions."""
     play = 30.0e-6
@@ -360,4 +378,4 @@ def check_wrong(checks, folder):
 
 
 if __name__ == "__main__":
-    run_checks((check_thrust, check_two_sides, check_supports, check_heat, check_apart, check_wrong), (check_runaway,))
+    run_checks((check_thrust, check_one_journal, check_two_sides, check_supports, check_heat, check_apart, check_wrong), (check_runaway,))

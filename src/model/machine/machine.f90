@@ -267,7 +267,8 @@ contains
     allocate (load(ways, size(machine%journal)), source=0.0_wp)
     call hold_at_rest(machine, across_at_journals(machine), held, regular)
     if (.not. regular) return
-    middle = [(sleeve_across(machine%journal(i)), i=1, size(machine%journal))]
+    middle = [(pack(machine%journal(i)%sleeve(machine%journal(i)%coordinate), &
+                    holds_shaft(machine, machine%journal(i))), i=1, size(machine%journal))]
     if (machine%along > 0) middle = [middle, 0.0_wp]
     force = held%force - matmul(held%stiffness, middle)
     first = 0
@@ -278,14 +279,20 @@ contains
     end do
   end subroutine bearing_loads
 
-  !> Where a sleeve stands across the axis; nothing where its film does not feel that.
-  pure function sleeve_across(journal) result(place)
+  !> Which motions of a journal hold the shaft across its axis: its translations, and of a bearing
+  !> that does so alone its tilts.
+  pure function holds_shaft(machine, journal) result(holds)
+    type(machine_type), intent(in) :: machine
     type(journal_type), intent(in) :: journal
-    real(wp), allocatable :: place(:) !! [m]
-    place = pack(journal%sleeve(journal%coordinate), journal%coordinate <= ways)
-  end function sleeve_across
+    logical :: holds(size(journal%coordinate))
+    integer :: i, others
 
-  !> Places of the journals' translations among all motions, and of that along z.
+    others = count([(any(machine%journal(i)%coordinate == 1), i=1, size(machine%journal))]) - 1
+    holds = journal%coordinate <= ways
+    if (others == 0 .and. any(holds)) holds = holds .or. journal%coordinate > translations
+  end function holds_shaft
+
+  !> Places of the motions that hold the shaft across its axis among all, and of that along z.
   pure function across_at_journals(machine) result(place)
     type(machine_type), intent(in) :: machine
     integer, allocatable :: place(:)
@@ -294,7 +301,7 @@ contains
     allocate (place(0))
     do i = 1, size(machine%journal)
       associate (journal => machine%journal(i))
-        place = [place, pack(journal%place, journal%coordinate <= ways)]
+        place = [place, pack(journal%place, holds_shaft(machine, journal))]
       end associate
     end do
     if (machine%along > 0) place = [place, machine%along]

@@ -135,6 +135,8 @@ contains
         call fail(error, scene%file//': &machine: shaft_conductivity: no bearing has &thermal')
       else if (all(along)) then
         call fail(error, scene%file//': &bearings: files: no journal bearing holds the shaft across its axis')
+      else if (count(.not. along) == 1 .and. .not. machine%journal_tilts) then
+        call fail(error, scene%file//': &bearings: files: one journal bearing holds no shaft without journal_tilts: name two')
       else if (machine%axial_load_given .and. .not. any(along)) then
         call fail(error, scene%file//': &machine: axial_load: no thrust bearing of &bearings carries it')
       else if (any(along) .and. .not. face_each_other(machine%facing, along)) then

@@ -96,13 +96,19 @@ contains
     type(machine_bearing_type), intent(in) :: bearing(:) !! at their answers
     type(machine_motions_type), intent(in) :: small !! motions about the equilibrium
     type(history_row_type) :: row
+    type(bearing_answer_type) :: answer
+    real(wp) :: power
     integer :: i
 
     allocate (row%quantity(0))
+    power = 0.0_wp
     call add_result(row%quantity, 'speed_rpm', speed_rpm)
     do i = 1, size(bearing)
-      call add_rows(i, machine%journal(i), bearing_answer(bearing(i)%bearing), row%quantity)
+      answer = bearing_answer(bearing(i)%bearing)
+      power = power + answer%power_loss
+      call add_rows(i, machine%journal(i), answer, row%quantity)
     end do
+    call add_result(row%quantity, 'power_loss', power)
     if (.not. allocated(small%mode)) return
     call add_result(row%quantity, 'growth_rate', growth_of(small))
     call add_result(row%quantity, 'whirl_frequency', frequency_of(small))
