@@ -20,7 +20,7 @@ module gfb_machine_parts
   use gfb_bearing_solution, only: bearing_solution_type
   implicit none (type)
   private
-  public :: read_parts, load_parts, heat_parts, axial_words, check_fit, first_motions
+  public :: read_parts, load_parts, heat_parts, axial_words, describe_others, check_fit, first_motions
 
   real(wp), parameter :: unlike = 0.01_wp    !! diameters that differ by more do not fit [1]
   real(wp), parameter :: rounding = 1.0e-9_wp !! of a length [1]
@@ -202,6 +202,20 @@ contains
       end do
     end associate
   end subroutine load_parts
+
+  !> Says what else moves than the shaft across its axis, and how the shaft conducts heat.
+  subroutine describe_others(machine, log)
+    type(machine_type), intent(in) :: machine
+    type(run_log_type), intent(in) :: log
+
+    if (machine%along > 0) call log%line('along z the shaft is rigid, with a force of '//text(machine%force(machine%along), 5)//' N')
+    if (size(machine%sleeve) > 0) call log%line('sleeves on supports that give way: '//text(size(machine%sleeve)))
+    if (.not. machine%heat%present) return
+    associate (heat => machine%heat)
+      call log%line('the shaft conducts; to places beyond its ends '//text(heat%end_conductance(1), 3)//' and '// &
+                    text(heat%end_conductance(2), 3)//' W/K, through its surface '//text(sum(heat%lost), 3)//' W/K')
+    end associate
+  end subroutine describe_others
 
   !> How a thrust bearing begins alone.
   pure function axial_words(scene) result(words)

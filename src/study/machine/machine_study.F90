@@ -21,7 +21,7 @@ module gfb_machine_study
   use gfb_held_shaft, only: free_motions
   use gfb_machine, only: machine_type, build_machine, line_of_shaft
   use gfb_bearing_answer, only: bearing_answer_type
-  use gfb_machine_parts, only: part_type, read_parts, load_parts, heat_parts, axial_words, check_fit, first_motions
+  use gfb_machine_parts, only: part_type, read_parts, load_parts, heat_parts, axial_words, describe_others, check_fit, first_motions
   use gfb_bearing_rows, only: add_machine_heat
   use gfb_shaft_results, only: add_shaft_results, add_bearing_places
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
@@ -109,6 +109,7 @@ contains
     call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '//text(size(self%machine%force))// &
                   ' motions, of which '//text(size(self%machine%held))//' at journals')
     if (.not. any(abs(self%machine%force) > 0.0_wp)) call log%line('neither weight nor loads: journals stand in the middle of their sleeves')
+    call describe_others(self%machine, log)
     call load_parts(scene, self%machine, self%part)
     do i = 1, size(self%part)
       associate (part => self%part(i))
