@@ -129,14 +129,24 @@ module gfb_result_table
     result_type('friction_torque', 'N m', number, bearing, &
       'torque with which {the film brakes} the shaft', &
       'torque with which the film, and solid contact, brake the shaft', asked=.true.), &
-    result_type('power_loss', 'W', number, bearing, 'friction torque times speed', asked=.true.), &
+    result_type('power_loss', 'W', number, bearing + machine, &
+      'friction torque times speed; of a machine of all bearings', asked=.true.), &
     result_type('minimum_gap', 'm', number, bearing, 'smallest film thickness', &
       asked=.true., compared=.true., nodal=.true.), &
     result_type('film_margin', '1', number, bearing, &
       'smallest film, over time where the shaft moves, over smallest_gap; below 1 too thin', &
       'with `smallest_gap` of `&capacity` where no limit is looked for: `minimum_gap` over it, '// &
-      'of a shaft that moves `minimum_gap_over_time`; below 1 the film is thinner than wanted', &
+      'of a shaft that moves `minimum_gap_over_time`, of a sweep its worst point; below 1 the '// &
+      'film is thinner than wanted', nodal=.true.), &
+    result_type('temperature_margin', '1', number, bearing, &
+      'rise up to highest_temperature over that of film and top foil; below 1 too hot', &
+      'with `highest_temperature` of `&capacity`: how far it is above `ambient_temperature`, '// &
+      'over how far film or top foil are at most, of a sweep at its worst point; below 1 too hot', &
       nodal=.true.), &
+    result_type('stress_margin', '1', number, bearing, &
+      'largest_stress over the largest of the foils; below 1 too much', &
+      'with `largest_stress` of `&capacity`: it over the largest of the foils, of a sweep at '// &
+      'its worst point; below 1 the stress is too large', nodal=.true.), &
     result_type('minimum_gap_<n>', 'm', number, bearing + machine, &
       'smallest film thickness over pad n; of a machine of bearing n', &
       'of several pads: smallest film thickness over each', nodal=.true.), &
@@ -229,14 +239,17 @@ module gfb_result_table
   type(result_type), parameter, public :: heats(*) = [ &
     result_type('film_temperature', 'K', number, bearing, 'mean of the gas in the film', &
       'with `&thermal`: mean over the gas in the film', asked=.true.), &
-    result_type('film_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
+    result_type('film_temperature_<n>', 'K', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('maximum_film_temperature', 'K', number, bearing, &
       'largest mean over the gap', asked=.true., nodal=.true.), &
-    result_type('maximum_film_temperature_<n>', 'K', number, bearing, 'the same of pad n', &
+    result_type('maximum_film_temperature_<n>', 'K', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n', &
       nodal=.true.), &
     result_type('top_foil_temperature', 'K', number, bearing, 'mean of the top foil', &
       asked=.true.), &
-    result_type('top_foil_temperature_<n>', 'K', number, bearing, 'the same of pad n'), &
+    result_type('top_foil_temperature_<n>', 'K', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('maximum_top_foil_temperature', 'K', number, bearing, &
       'largest of the top foil', asked=.true., nodal=.true.), &
     result_type('maximum_top_foil_temperature_<n>', 'K', number, bearing, 'the same of pad n', &
@@ -253,10 +266,12 @@ module gfb_result_table
       'of the cooling gas where it leaves', asked=.true.), &
     result_type('heat_to_shaft', 'W', number, bearing, 'from the film into the shaft', &
       asked=.true.), &
-    result_type('heat_to_shaft_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_to_shaft_<n>', 'W', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('heat_to_top_foil', 'W', number, bearing, 'from the film into the top foil', &
       asked=.true.), &
-    result_type('heat_to_top_foil_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_to_top_foil_<n>', 'W', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('heat_through_bumps', 'W', number, bearing, &
       'from the top foil through the bumps into the sleeve', asked=.true.), &
     result_type('heat_through_bumps_<n>', 'W', number, bearing, 'the same of pad n'), &
@@ -265,7 +280,8 @@ module gfb_result_table
     result_type('heat_to_channel_<n>', 'W', number, bearing, 'the same of pad n'), &
     result_type('heat_by_gas', 'W', number, bearing, &
       'that the gas of the film carries out, less what it brings in', asked=.true.), &
-    result_type('heat_by_gas_<n>', 'W', number, bearing, 'the same of pad n'), &
+    result_type('heat_by_gas_<n>', 'W', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('mass_flow_leading_edge', 'kg/s', number, bearing, &
       'that enters the film over the leading edges', asked=.true.), &
     result_type('mass_flow_trailing_edge', 'kg/s', number, bearing, &
@@ -278,9 +294,10 @@ module gfb_result_table
       'running_clearance less the preload of pads and of assembly', &
       'of pads with a preload, or foils with `assembly_interference`: `running_clearance` less '// &
       'both, the play of the warm shaft on foils at rest; below 0 it presses on them'), &
-    result_type('energy_imbalance', '1', number, bearing, &
+    result_type('energy_imbalance', '1', number, bearing + machine, &
       'power less all heat out of the film, over the power', &
-      'power less all heat out of the film, over the power: what the solver left open'), &
+      'power less all heat out of the film, over the power: what the solver left open; of a '// &
+      'machine whose shaft conducts of all films and the shaft'), &
     result_type('modulus_ratio_top_foil', '1', number, bearing, &
       'modulus of the top foil over its youngs_modulus', &
       'modulus of the top foil at its mean temperature, over its `youngs_modulus`; of several '// &
@@ -293,16 +310,18 @@ module gfb_result_table
     result_type('modulus_ratio_bumps_<n>', '1', number, bearing, 'the same of pad n')]
 
   type(result_type), parameter :: transients(*) = [ &
-    result_type('time', 's', number, transient, &
+    result_type('time', 's', number, transient + machine, &
       'computed; eccentricity, forces, film and foils are of its end'), &
-    result_type('turns', '1', number, transient, 'of the shaft in that time'), &
-    result_type('time_steps', '1', total, transient, 'that were taken'), &
+    result_type('turns', '1', number, transient + machine, 'of the shaft in that time'), &
+    result_type('time_steps', '1', total, transient + machine, 'that were taken'), &
     result_type('orbit_<a>', 'm', number, transient + periodic, 'extent in a turn or period'), &
     result_type('orbit_<a>_<n>', 'm', number, transient, 'extent in one of two bearings'), &
     result_type('orbit_tilt_<a>', 'rad', number, transient, 'extent of a tilt in a turn'), &
-    result_type('minimum_gap_over_time', 'm', number, transient + periodic, 'smallest one'), &
-    result_type('ending', '', word, transient + periodic, 'why it ended before its end'), &
-    result_type('not_reached', '', word, transient + periodic, &
+    result_type('minimum_gap_over_time', 'm', number, transient + periodic + machine, &
+      'smallest one'), &
+    result_type('ending', '', word, transient + periodic + machine, &
+      'why it ended before its end'), &
+    result_type('not_reached', '', word, transient + periodic + machine, &
       'what was asked for and not reached', &
       'what was asked for and not reached: turns, a speed, a steady orbit, the end of a '// &
       'branch; `converged` is then false and the exit status 2'), &
@@ -601,6 +620,10 @@ module gfb_result_table
     result_type('polar_inertia', 'kg m^2', number, machine, 'about the axis of the shaft'), &
     result_type('eccentricity_<a>_<n>', 'm', number, machine, &
       'e_<a> of bearing n, of the sleeve relative to the shaft'), &
+    result_type('eccentricity_z_<n>', 'm', number, machine, &
+      'e_z of thrust bearing n, minus its axial gap, as its file has its axes'), &
+    result_type('force_z_<n>', 'N', number, machine, &
+      'force of the film of thrust bearing n that lifts its runner'), &
     result_type('tilt_<a>_<n>', 'rad', number, machine, &
       'of the sleeve of bearing n against its journal, about <a>'), &
     result_type('torque_<a>_<n>', 'N m', number, machine, &
@@ -614,7 +637,25 @@ module gfb_result_table
     result_type('amplification_factor_<n>', '1', number, machine, &
       'critical_speed_<n> over the speeds between which the response there is above 0.707 of it', &
       'of `critical_speed_<n>`: that over the width between the speeds at which the response '// &
-      'has 0.707 of it, as API 617 has it; absent where one of them is beyond the speeds')]
+      'has 0.707 of it, as API 617 has it; absent where one of them is beyond the speeds'), &
+    result_type('orbit_<a>_bearing_<n>', 'm', number, machine, 'extent at bearing n, last turns', &
+      'over time: extent of the motion of the shaft''s axis in the last five turns, at '// &
+      'bearing n'), &
+    result_type('orbit_<a>_disc_<n>', 'm', number, machine, 'extent at disc n, last turns', &
+      'the same at disc n'), &
+    result_type('orbit_<a>_station_<n>', 'm', number, machine, 'extent at station n, last turns', &
+      'the same at station n of `&machine`'), &
+    result_type('shaft_temperature_<n>', 'K', number, machine, &
+      'of the shaft under the film of bearing n, with `&thermal` in its file'), &
+    result_type('sleeve_temperature_<n>', 'K', number, machine, 'of the sleeve of bearing n'), &
+    result_type('running_clearance_<n>', 'm', number, machine, &
+      'clearance of bearing n less what shaft and sleeve grow by temperature and speed'), &
+    result_type('energy_imbalance_<n>', '1', number, machine, &
+      'power of bearing n less all heat out of its film, over the power'), &
+    result_type('heat_from_shaft_ends', 'W', number, machine, &
+      'heat that leaves the shaft through its ends, with shaft_conductivity'), &
+    result_type('heat_from_shaft_surface', 'W', number, machine, &
+      'heat that leaves the shaft through its surface')]
 
   type(result_type), parameter :: ensembles(*) = [ &
     result_type('member', '', word, ensemble, 'name of the case file', &

@@ -388,7 +388,7 @@ contains
       '  --template A    a case file to begin with, all keys with unit, default and'//next// &
       '                  meaning; A: equilibrium, fixed_position, strip, modes,'//next// &
       '                  linear_dynamics, load_capacity, lift_off,'//next// &
-      '                  misalignment_allowance, transient, periodic, thrust'//next// &
+      '                  misalignment_allowance, transient, periodic, thrust, machine'//next// &
       '  --short         of --template only what the case needs, 25 lines; A may be a'//next// &
       '                  topic of --explain, too'//next// &
       '  --explain NAME  a key (or group%key), a group, the name of a result, a value of'//next// &

@@ -44,9 +44,11 @@ module gfb_field_words
       'running_clearance running_play energy_imbalance', 'equilibrium', 'thermal', 'heat'), &
     field_word_type('margin safety_factor load_margin', &
       'a limit over what the bearing is asked for: of load, speed or tilt; of the film over '// &
-      'the smallest one wanted; and of stability, the stiffness of the mode nearest to a change', &
-      'capacity%smallest_gap capacity%contact_part', &
-      'film_margin load_capacity lift_off_speed_rpm misalignment_allowance stability_margin', &
+      'the smallest one wanted, of the rise of temperature and of the stress that are allowed; '// &
+      'and of stability, the stiffness of the mode nearest to a change', &
+      'capacity%smallest_gap capacity%highest_temperature capacity%largest_stress', &
+      'film_margin temperature_margin stress_margin load_capacity lift_off_speed_rpm '// &
+      'misalignment_allowance stability_margin', &
       'load_capacity', '', 'capacity'), &
     field_word_type('load_capacity capacity', &
       'the largest load that leaves the smallest film', 'capacity%smallest_gap', &
@@ -64,6 +66,11 @@ module gfb_field_words
       'stability', 'self-excited vibration below the speed: from which mass or speed on it grows', &
       'rotor%mass sweep%parameter', 'critical_mass whirl_ratio onset_speed_rpm growth_rate', &
       'linear_dynamics', 'rotor', 'stability'), &
+    field_word_type('machine flexible_rotor flexible_shaft rotor_bearing_system', &
+      'a shaft that bends, with discs, in several bearings, each a case file of its own: '// &
+      'equilibrium, modes, unbalance', 'shaft%lengths discs%masses bearings%files '// &
+      'machine%speed_rpm unbalance%values', 'mass growth_rate whirl_frequency '// &
+      'onset_speed_rpm', 'machine', '', 'machine'), &
     field_word_type('critical_speed natural_frequency campbell rotor_mode', &
       'frequency and damping of the rotor on this bearing; of natural modes of a foil, '// &
       "analysis = 'modes'", 'rotor%mass dynamics%frequency_ratios', &

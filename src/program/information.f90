@@ -15,13 +15,13 @@ module gfb_information
   use gfb_run_case, only: read_input
   use gfb_scene, only: scene_type, read_groups
   use gfb_analysis_row, only: analysis_rows, analysis_examples, analysis_example_type, &
-                              analysis_equilibrium
+                              analysis_equilibrium, analysis_linear_dynamics
   implicit none (type, external)
   private
   public :: information
 
-  !> Of `--template`, beside the analyses: an equilibrium of a thrust bearing.
-  character(len=*), parameter :: thrust_template = 'thrust'
+  !> Of `--template`, beside the analyses: an equilibrium of a thrust bearing, and a machine.
+  character(len=*), parameter :: more_templates(*) = [character(len=7) :: 'thrust', 'machine']
   type(analysis_example_type), parameter :: thrust_example = analysis_example_type( &
     ' shaft_contact sweep sensitivity accuracy ', &
     "&bearing kind='thrust' outer_radius=50.0e-3 inner_radius=25.0e-3 / "// &
@@ -33,8 +33,20 @@ module gfb_information
     "&sweep parameter='axial_load' values=150.0, 170.0, 190.0 / "// &
     "&sensitivity quantity='axial_gap' parameters='ramp%height', 'gas%viscosity' "// &
     "tolerances=1.0e-6, 2.0e-7 / &accuracy quantity='axial_gap' /")
+  !> The template of an equilibrium is its bearing.
+  type(analysis_example_type), parameter :: machine_example = analysis_example_type( &
+    ' loads sweep ', &
+    '&shaft lengths=0.04, 0.24, 0.04 outer_diameters=38.1e-3, 36.0e-3, 38.1e-3 '// &
+    'youngs_modulus=211.0e9 poissons_ratio=0.3 density=7850.0 / '// &
+    '&discs positions=0.14, 0.18 masses=6.0 polar_inertias=0.01 / '// &
+    "&bearings files='bearing.nml', 'bearing.nml' positions=0.02, 0.30 / "// &
+    '&machine speed_rpm=20000.0 / &dynamics largest_frequency=3500.0 / '// &
+    '&unbalance positions=0.14 values=2.0e-6 / &loads positions=0.16 forces_x=-100.0 / '// &
+    "&sweep parameter='speed_rpm' values=20000.0, 22000.0, 24000.0 /")
   character(len=*), parameter :: template_words(*) = [analysis_rows%word, [character(len= &
-                                 len(analysis_rows%word)) :: thrust_template]]
+                                 len(analysis_rows%word)) :: more_templates]]
+  character(len=*), parameter :: of_machine = '! Its bearings have a case file of their own: '// &
+    'gfb --template equilibrium --short > bearing.nml'//new_line('a')
   integer, parameter :: comment_column = 42, longest_line = 120 !! of a template
   integer, parameter :: longest_short_line = 100
   character(len=1), parameter :: next = new_line('a')
@@ -265,9 +277,12 @@ contains
     if (number <= size(analysis_rows)) then
       word = trim(analysis)
       example = analysis_examples(number)
-    else
+    else if (analysis == 'thrust') then
       word = trim(analysis_equilibrium%word)
       example = thrust_example
+    else
+      word = trim(analysis_linear_dynamics%word)
+      example = machine_example
     end if
     if (topic%groups /= '') call want_groups(example, topic%groups)
     call keys%open_text("&scene title='my first case' analysis='"//word//"' /"// &
@@ -275,6 +290,7 @@ contains
     call read_groups(keys, scene)
     if (short) then
       words = short_text(keys%book%keys(:keys%book%count), example)
+      if (analysis == 'machine') words = of_machine//words
       return
     end if
     words = '! A case file of gfb, written by gfb --template. It can be run as it is. SI '// &
@@ -285,6 +301,7 @@ contains
             'mistakes,'//next// &
             '! gfb --explain KEY says what a key means.'//next// &
             written(keys%book%keys(:keys%book%count), example)
+    if (analysis == 'machine') words = of_machine//words
   end subroutine template_text
 
   !> Takes groups of an example out of those that stand in comments.

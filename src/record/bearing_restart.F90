@@ -79,7 +79,7 @@ contains
   !> Puts a scene's equations where the file says.
   !>
   !> Fails when the file is damaged.
-  subroutine restore_bearing(scene, restart, log, bearing, newton, record, error)
+  subroutine restore_bearing(scene, restart, log, bearing, newton, record, error, name)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     type(restart_type), intent(in) :: restart !! the file to resume from
     type(run_log_type), intent(in) :: log !! gets the lines of progress
@@ -87,9 +87,14 @@ contains
     type(newton_type), target, intent(inout) :: newton !! gets its counts
     type(bearing_record_type), intent(inout) :: record !! gets the points so far
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    character(len=*), intent(in), optional :: name !! of its archive; default: bearing
     type(archive_type) :: archive
 
-    call read_restart(restart, 'bearing', archive, error)
+    if (present(name)) then
+      call read_restart(restart, name, archive, error)
+    else
+      call read_restart(restart, 'bearing', archive, error)
+    end if
     if (allocated(error)) return
     call visit_answer_and_record(archive, bearing, newton, record)
     call end_reading(restart, archive, error)

@@ -37,7 +37,7 @@ module gfb_bearing_summary
     'load_capacity', 'load_capacity_coefficient', 'load_capacity_coefficient_si', &
     'lift_off_speed_rpm', 'misalignment_allowance', 'limit_reached', 'not_reached', 'ending', &
     'onset_speed_rpm', 'critical_mass', 'growth_rate', 'time', 'turns', 'orbit_x', 'orbit_y', &
-    'minimum_gap_over_time', 'film_margin']
+    'minimum_gap_over_time', 'film_margin', 'temperature_margin', 'stress_margin']
   integer, parameter :: digits = 6, label = 16 !! of their lines
 
 contains
@@ -386,6 +386,7 @@ contains
   subroutine show_runner(log, answer)
     type(run_log_type), intent(in) :: log
     type(bearing_answer_type), intent(in) :: answer
+    character(len=:), allocatable :: whose
 
     associate (ring => answer%ring)
       if (ring%centre(1) > 0.0_wp) then
@@ -398,8 +399,12 @@ contains
                                                             1.0e6_wp)//' at most')
       end if
       if (answer%has_foils) then
-        call log%line('trailing edge    deflected by '//pair(ring%trailing_deflection, 'um', &
-                                                             1.0e6_wp)//' inside and outside')
+        whose = ''
+        if (allocated(answer%pad_gap)) then
+          whose = 'of pad '//text(ring%thinnest_pad)//', where the film is thinnest, '
+        end if
+        call log%line('trailing edge    '//whose//'deflected by '// &
+                      pair(ring%thinnest_deflection, 'um', 1.0e6_wp)//' inside and outside')
         call show_crests(log, answer)
       end if
       call log%line('axial gap        '//engineering_text(-answer%place(axial), 'um', 1.0e6_wp)// &

@@ -8,8 +8,7 @@ module gfb_dynamics_record
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
-  use gfb_film_surface, only: shaft_coordinates, translations, axial_coordinate, journal_motions, &
-                              journal_coordinates
+  use gfb_film_surface, only: shaft_coordinates, translations, journal_coordinates
   use gfb_text, only: exact_text, join
   use gfb_case_file, only: case_array_type, add_array
   implicit none (type, external)
@@ -52,6 +51,7 @@ module gfb_dynamics_record
 
   !> At one answer.
   type, public :: dynamics_point_type
+    integer, allocatable :: motion(:) !! the shaft's coordinates that the film's surface has
     real(wp), allocatable :: frequency(:)          !! [rad/s]
     complex(wp), allocatable :: coefficient(:, :, :) !! (row, column, frequency) Z in SI
     !> of lines between neighbours, if frequencies were put between those given; NaN: could not [1]
@@ -74,47 +74,34 @@ module gfb_dynamics_record
 
 contains
 
-  !> The shaft's coordinates that are motions of a matrix: of a surface that has so many, see
-  !> `motions` of `gfb_film_surface`.
-  pure function coordinates_of(motions) result(coordinate)
-    integer, intent(in) :: motions !! of a journal, a runner, or of a cone, which has all
-    integer, allocatable :: coordinate(:)
-    integer :: i
-
-    coordinate = [(i, i=1, shaft_coordinates)]
-    if (motions == journal_motions) coordinate = journal_coordinates
-    if (motions < journal_motions) coordinate = coordinate(axial_coordinate:)
-  end function coordinates_of
-
   !> Names of motions in matrices.
-  pure function motion_names(motions) result(names)
-    integer, intent(in) :: motions !! how many there are
-    character(len=4), allocatable :: names(:)
-    names = coordinate_names(coordinates_of(motions))
+  elemental function motion_names(motion) result(name)
+    integer, intent(in) :: motion !! one of the shaft's coordinates
+    character(len=4) :: name
+    name = coordinate_names(motion)
   end function motion_names
 
   !> Motions of an answer's matrices.
   pure integer function motions_of(point) result(motions)
     type(dynamics_point_type), intent(in) :: point
-    motions = size(point%coefficient, 1)
+    motions = size(point%motion)
   end function motions_of
 
   !> The order of arrays, for their description.
-  pure function order_of(motions) result(words)
-    integer, intent(in) :: motions
+  pure function order_of(point) result(words)
+    type(dynamics_point_type), intent(in) :: point
     character(len=:), allocatable :: words
     words = 'frequency, row, column] in the order '// &
-            join(coordinate_symbols(coordinates_of(motions)), ', ')//': '
+            join(coordinate_symbols(point%motion), ', ')//': '
   end function order_of
 
   !> The film's force along the motions that are translations.
-  pure function force_words(motions) result(words)
-    integer, intent(in) :: motions
+  pure function force_words(point) result(words)
+    type(dynamics_point_type), intent(in) :: point
     character(len=:), allocatable :: words
     integer, allocatable :: along(:)
 
-    along = coordinates_of(motions)
-    along = pack(along, along <= translations)
+    along = pack(point%motion, point%motion <= translations)
     words = 'film force ('//join(coordinate_names(along), ', ')//')'
     if (size(along) == 1) words = 'film force along '//trim(coordinate_names(along(1)))
   end function force_words
@@ -192,9 +179,9 @@ contains
         damping(:, k) = [(by_rows(damping_of(point, i)), i=1, n)]
       end associate
     end do
-    axes = ', [point, '//order_of(motions)
+    axes = ', [point, '//order_of(record%point(1))
     if (.not. sweeps) then
-      axes = ', ['//order_of(motions)
+      axes = ', ['//order_of(record%point(1))
       frequency = transpose(frequency)
       stiffness = reshape(stiffness, [entries, n])
       damping = reshape(damping, [entries, n])
@@ -202,7 +189,7 @@ contains
     call add_array(arrays, '/dynamics/frequency', 'rad/s', 'circular frequency of the vibration', &
                    frequency, sweeps)
     call add_array(arrays, '/dynamics/stiffness', trim(units(1)), &
-                   'real part of K + i omega C'//axes//force_words(motions)// &
+                   'real part of K + i omega C'//axes//force_words(record%point(1))// &
                    ' or torque that brings the shaft back, over its displacement or rotation', &
                    stiffness, sweeps, motions)
     call add_array(arrays, '/dynamics/damping', trim(units(2)), &
@@ -229,7 +216,7 @@ contains
       associate (n => size(point%frequency), motions => motions_of(point))
         call add_array(arrays, '/dynamics/'//trim(kinds(part))//'_error', trim(units(part)), &
                        'error of every entry, estimated from nested meshes, absolute, ['// &
-                       order_of(motions)// &
+                       order_of(point)// &
                        'of '//trim(kinds(part)), &
                        reshape([(by_rows(error_of(point, part, i)), i=1, n)], [motions**2, n]), &
                        order=motions)
@@ -242,12 +229,12 @@ contains
     type(dynamics_point_type), intent(in) :: point
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
     real(wp), allocatable, dimension(:, :) :: stiffness, damping
-    character(len=*), parameter :: at_amplitude = ', with contacts that slide to and fro at an '// &
-                                                  'amplitude, one harmonic, [frequency, '// &
-                                                  'amplitude, row, column] in the order e_x, '// &
-                                                  'e_y, phi_x, phi_y, NaN in the columns of phi'
+    character(len=:), allocatable :: at_amplitude
     integer :: i, k
 
+    at_amplitude = ', with contacts that slide to and fro at an amplitude, one harmonic, '// &
+                   '[frequency, amplitude, row, column] in the order '// &
+                   join(coordinate_symbols(point%motion), ', ')//', NaN in the columns of phi'
     associate (amplitudes => size(point%amplitude), n => size(point%frequency), &
                motions => motions_of(point))
       allocate (stiffness(motions**2*amplitudes, n))
@@ -307,16 +294,17 @@ contains
     character(len=*), intent(in) :: sweep_name !! what the sweep changes; empty without one
     real(wp), intent(in) :: values(:) !! of the sweep, as many as answers, in its unit
     character(len=:), allocatable :: words
-    integer :: i, k, motions
+    integer, allocatable :: motion(:)
+    integer :: i, k
 
-    motions = 4
-    if (size(record%point) > 0) motions = motions_of(record%point(1))
+    motion = journal_coordinates
+    if (size(record%point) > 0) motion = record%point(1)%motion
     words = 'frequency'
     if (sweep_name /= '') words = sweep_name//',frequency'
-    words = words//heads(motions, 'k', '')//heads(motions, 'c', '')
+    words = words//heads(motion, 'k', '')//heads(motion, 'c', '')
     if (size(record%point) > 0) then
       if (allocated(record%point(1)%error)) then
-        words = words//heads(motions, 'k', '_error')//heads(motions, 'c', '_error')
+        words = words//heads(motion, 'k', '_error')//heads(motion, 'c', '_error')
       end if
     end if
     words = words//new_line('a')
@@ -336,17 +324,17 @@ contains
   end function dynamics_table
 
   !> Names of a matrix' columns, each behind a comma.
-  pure function heads(motions, letter, ending) result(words)
-    integer, intent(in) :: motions
+  pure function heads(motion, letter, ending) result(words)
+    integer, intent(in) :: motion(:) !! the shaft's coordinates
     character(len=*), intent(in) :: letter, ending !! of each name
     character(len=:), allocatable :: words
-    character(len=4) :: names(motions)
+    character(len=4) :: names(size(motion))
     integer :: row, column
 
-    names = motion_names(motions)
+    names = motion_names(motion)
     words = ''
-    do row = 1, motions
-      do column = 1, motions
+    do row = 1, size(motion)
+      do column = 1, size(motion)
         words = words//','//letter//trim(names(row))//trim(names(column))//ending
       end do
     end do
@@ -400,15 +388,19 @@ contains
       parts(entries + 1:, :) = reshape(aimag(point%coefficient), [entries, size(point%frequency)])
     end if
     call archive%visit_sized('frequency', point%frequency)
+    call archive%visit_sized('motion', point%motion)
     call archive%visit_sized('coefficient', parts)
     call archive%visit_sized('mode', point%mode)
     if (archive%saves .or. archive%failed) return
-    call archive%require(allocated(point%frequency) .and. allocated(parts), 'the coefficients')
+    call archive%require(allocated(point%frequency) .and. allocated(point%motion) .and. &
+                         allocated(parts), 'the coefficients')
     if (archive%failed) return
-    entries = size(parts, 1)/2
-    motions = nint(sqrt(real(entries, wp)))
-    call archive%require(size(parts, 1) == 2*motions**2 .and. &
-                         size(parts, 2) == size(point%frequency), 'the coefficients')
+    motions = motions_of(point)
+    entries = motions**2
+    call archive%require(size(parts, 1) == 2*entries .and. &
+                         size(parts, 2) == size(point%frequency) .and. &
+                         all(point%motion >= 1 .and. point%motion <= shaft_coordinates), &
+                         'the coefficients')
     if (allocated(point%mode)) then
       call archive%require(any(size(point%mode, 1) == [0, mode_numbers]), 'the modes')
     end if

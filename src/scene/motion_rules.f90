@@ -237,7 +237,14 @@ contains
                        'needs a shaft that turns: give duration')
       call keys%refuse(group, 'field_start', .not. transient%field_interval > 0.0_wp, &
                        'has no use without field_interval')
-      call check_shaft(keys, scene)
+      if (scene%general%asked%is_machine) then
+        call keys%refuse(group, 'couple_pulse', .not. keys%meant(group, 'pulse_position'), &
+                         'needs pulse_position: where on the shaft it acts')
+        call keys%refuse(group, 'pulse_position', .not. (keys%meant(group, 'pulse') .or. &
+                         keys%meant(group, 'couple_pulse')), 'has no use without pulse')
+      else
+        call check_shaft(keys, scene)
+      end if
       call check_pulse_and_base(keys, scene)
       call check_ends(keys, scene)
       call check_steps(keys, scene)

@@ -68,6 +68,8 @@ module gfb_plausible_values
                'thermal%shaft_far_temperature thermal%shaft_end_temperature '// &
                'thermal%top_foil_temperature thermal%reference_temperature '// &
                'thermal%modulus_temperatures'), &
+    range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'machine%shaft_end_temperature '// &
+               'machine%shaft_film_temperature'), &
     range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'thermal%cooling_temperature '// &
                'thermal%sleeve_temperature thermal%sleeve_far_temperature'), &
     range_type(300.0_wp, 1.6e4_wp, 'J/(kg K)', 'J/(g K)', 'thermal%specific_heat'), &
@@ -76,9 +78,10 @@ module gfb_plausible_values
     range_type(1.0e-6_wp, 2.0e-3_wp, '1/K', '%/K', 'thermal%modulus_slope'), &
     range_type(1.0e-3_wp, 1.0e2_wp, 'W/K', 'mW/K', &
                'thermal%shaft_conductance thermal%sleeve_conductance '// &
-               'thermal%shaft_end_conductance'), &
+               'thermal%shaft_end_conductance machine%shaft_end_conductance'), &
     range_type(0.1_wp, 500.0_wp, 'W/(m K)', 'W/(cm K)', &
-               'thermal%shaft_conductivity thermal%foil_conductivity'), &
+               'thermal%shaft_conductivity thermal%foil_conductivity machine%shaft_conductivity'), &
+    range_type(0.1_wp, 1.0e4_wp, 'W/(m^2 K)', 'W/(cm^2 K)', 'machine%shaft_film_conductance'), &
     range_type(1.0_wp, 1.0e5_wp, 'W/(m^2 K)', 'W/(cm^2 K)', 'thermal%bump_conductance '// &
                'thermal%channel_conductance thermal%channel_sleeve_conductance'), &
     range_type(1.0e-6_wp, 0.02_wp, 'kg/s', 'g/s', 'thermal%cooling_flow'), &
@@ -131,6 +134,8 @@ module gfb_plausible_values
                'model%strip_foundation_stiffness'), &
     range_type(1.0e5_wp, 1.0e10_wp, 'N/m^2', 'N/mm^2', 'model%crest_stiffness'), &
     range_type(1.0e-8_wp, 5.0e-4_wp, 'm', 'um,mm', 'capacity%smallest_gap'), &
+    range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'capacity%highest_temperature'), &
+    range_type(1.0e6_wp, 5.0e9_wp, 'Pa', 'MPa,GPa', 'capacity%largest_stress'), &
     range_type(0.0_wp, 1.0e-4_wp, 'm', 'mm,um', 'solver%touch_down_gap'), &
     range_type(0.0_wp, 1.0e-2_wp, '1', '%', 'solver%residual_tolerance solver%step_tolerance'), &
     range_type(0.0_wp, 1.0_wp, '1', '%', 'solver%smallest_load_step'), &
@@ -158,9 +163,15 @@ module gfb_plausible_values
     range_type(1.0e-4_wp, 1.0e4_wp, 'kg', 'g', 'discs%masses'), &
     range_type(1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2', 'discs%polar_inertias '// &
                'discs%transverse_inertias'), &
-    range_type(0.0_wp, 5.0e-3_wp, 'm', 'um,mm', 'bearings%offset_x bearings%offset_y'), &
+    range_type(0.0_wp, 5.0e-3_wp, 'm', 'um,mm', 'bearings%offset_x bearings%offset_y '// &
+               'bearings%offset_z'), &
     range_type(0.0_wp, 0.05_wp, 'rad', 'deg', 'bearings%misalignment_x bearings%misalignment_y'), &
-    range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'loads%forces_x loads%forces_y'), &
+    range_type(0.0_wp, 1.0e3_wp, 'kg', 'g', 'bearings%support_mass'), &
+    range_type(0.0_wp, 1.0e13_wp, 'N/m', '', 'bearings%support_stiffness_x '// &
+               'bearings%support_stiffness_y'), &
+    range_type(0.0_wp, 1.0e8_wp, 'N s/m', '', 'bearings%support_damping_x '// &
+               'bearings%support_damping_y'), &
+    range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'loads%forces_x loads%forces_y machine%axial_load'), &
     range_type(0.0_wp, 1.0e4_wp, 'N m', 'N mm', 'loads%moments_x loads%moments_y'), &
     range_type(0.0_wp, 1.0e3_wp, 'm/s^2', 'mm/s^2', 'machine%gravity'), &
     range_type(0.0_wp, 1.0e7_wp, 'rad/s', 'rpm', 'dynamics%largest_frequency'), &
@@ -203,6 +214,7 @@ module gfb_plausible_values
     reason_type('bump_foil%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('shaft%poissons_ratio', 'between -1 and 0.5 by its rule'), &
     reason_type('thermal%shaft_poissons_ratio', 'between -1 and 0.5 by its rule'), &
+    reason_type('bearings%facing', '1 or -1 by its rule'), &
     reason_type('thermal%carry_over', 'from 0 to 1 by its rule'), &
     reason_type('contact%exponent', 'bounded by its rule'), &
     reason_type('mesh%edge_refinement', 'from 1 to 100 by its rule'), &

@@ -141,7 +141,15 @@ contains
       call read_sample_case(keys, scene%sample, analysis%refusal('sample'))
       allocate (scene%machine)
       call read_machine_case(keys, scene%machine, analysis)
-      if (.not. scene%machine%present) deallocate (scene%machine)
+      if (scene%machine%present) then
+        scene%operation%speed_rpm = scene%machine%speed_rpm
+        associate (transient => scene%transient)
+          if (.not. transient%speed_changes) transient%final_speed_rpm = scene%machine%speed_rpm
+          if (.not. transient%start_gravity_given) transient%start_gravity = scene%machine%gravity
+        end associate
+      else
+        deallocate (scene%machine)
+      end if
     end associate
     scene%general%analysis = state
   end subroutine read_groups

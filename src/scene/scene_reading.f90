@@ -13,7 +13,7 @@ module gfb_scene_reading
   use gfb_errors, only: error_type
   use gfb_foreign_characters, only: as_utf8
   use gfb_key_book, only: key_type
-  use gfb_key_effect, only: acts_on_nothing, acts_on_point
+  use gfb_key_effect, only: acts_on_nothing
   use gfb_plausible_values, only: check_plausible, check_tolerance
   use gfb_scene_rules, only: check_groups
   use gfb_changed_text, only: changed_text, changed_list_text
@@ -273,7 +273,6 @@ contains
     integer :: i
 
     one%key = key
-    one%key%acts_on = acts_on_point
     one%tolerance = tolerance
     allocate (value(0))
     if (key%label() == 'operation%load') then
@@ -286,9 +285,9 @@ contains
     else
       call look_up(keys, scene, key, one%unit, problem)
       if (problem /= '') return
-      one%key%acts_on = keys%book%keys(keys%book%place_of(key%group, key%name))%acts_on
       value = list_values(keys, key, scene%bump_foil)
     end if
+    one%key%acts_on = keys%book%keys(keys%book%place_of(key%group, key%name))%acts_on
     do i = 1, size(value)
       if (key%element > 0 .and. key%element /= i) cycle
       if (key%element /= 0) one%key%element = i

@@ -212,6 +212,7 @@ contains
                      smallest > 0.0_wp .and. smallest <= scene%solver%touch_down_gap, 'must be '// &
                      'more than touch_down_gap in &solver, '//text(scene%solver%touch_down_gap)// &
                      ' m, where paths end')
+      call check_limits_kept(keys, scene)
       if (limit == 0) return
       call keys%rule('operation', 'load', limit /= limit_tilt .and. &
                      is_unloaded(scene), 'must not be zero: it gives the direction, and '// &
@@ -233,6 +234,23 @@ contains
       if (sweep%present) call check_swept_limit(keys, scene)
     end associate
   end subroutine check_capacity
+
+  !> Checks the limits that an answer is measured against.
+  subroutine check_limits_kept(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    associate (hottest => scene%capacity%highest_temperature, thermal => scene%thermal)
+      call keys%rule('capacity', 'highest_temperature', hottest > 0.0_wp .and. .not. &
+                     thermal%present, 'needs &thermal: without it nothing gets warm')
+      call keys%rule('capacity', 'highest_temperature', hottest > 0.0_wp .and. thermal%present &
+                     .and. hottest <= thermal%ambient_temperature, 'must be more than '// &
+                     'ambient_temperature in &thermal, '//text(thermal%ambient_temperature)//' K')
+    end associate
+    call keys%rule('capacity', 'largest_stress', scene%capacity%largest_stress > 0.0_wp .and. &
+                   .not. scene%model%foil%has_top_foil, 'has no use with foil = '''// &
+                   trim(scene%model%foil%word)//''': no stresses of it are known')
+  end subroutine check_limits_kept
 
   !> A sweep cannot change what is looked for, nor ask for answers that are no limits.
   subroutine check_swept_limit(keys, scene)

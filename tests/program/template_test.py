@@ -12,7 +12,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"verification
 from gfb_run import GFB, MPIEXEC, Checks  # noqa: E402
 
 ANALYSES = ("equilibrium", "fixed_position", "strip", "modes", "linear_dynamics", "load_capacity", "lift_off",
-            "misalignment_allowance", "transient", "periodic", "thrust")
+            "misalignment_allowance", "transient", "periodic", "thrust", "machine")
+OWN = {"thrust": "kind = 'thrust'", "machine": "&shaft\n"}  # what templates have that are named after no analysis
+BEARING = "bearing.nml"  # of the machine, whose first line says how it is made
 SECONDS = 900
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -38,7 +40,9 @@ def check_templates(checks, folder):
     for analysis in ANALYSES:
         status, text, wrong = call("--template", analysis, folder=folder)
         checks.that(f"--template {analysis}", status == 0 and not wrong and
-                    ("kind = 'thrust'" if analysis == "thrust" else f"analysis = '{analysis}'") in text)
+                    OWN.get(analysis, f"analysis = '{analysis}'") in text)
+        if analysis == "machine":
+            write_bearing(checks, folder, text)
         checks.that(f"{analysis}: lines that a screen has", max(map(len, text.splitlines())) <= 120)
         (folder/f"{analysis}.nml").write_text(text, encoding="utf-8")
         status, _, wrong = call("--strict", "--output", "there", f"{analysis}.nml", folder=folder)
@@ -70,12 +74,21 @@ def check_templates(checks, folder):
     checks.that(f"--help: all {len(analyses)} analyses of --template", len(analyses) > 5 and helped == analyses)
 
 
+def write_bearing(checks, folder, text):
+    """The bearing of the machine's template, by the command in its first line."""
+    command, _, name = text.partition("\n")[0].partition(": ")[2].partition(" > ")
+    status, bearing, wrong = call(*command.split()[1:], folder=folder)
+    checks.that(f"{command}: the machine's bearing", status == 0 and not wrong and name == BEARING and f"'{name}'" in text)
+    (folder/name).write_text(bearing, encoding="utf-8")
+
+
 def check_short(checks, folder):
     """25 lines that run, of each analysis, and of each topic that has a template: with the groups that the topic is of."""
     topics = {line.split()[0] for line in call("--explain", "topics", folder=folder)[1].splitlines()}
     begun = {topic for topic in topics if "--short" in call("--explain", topic, folder=folder)[1]}
     checks.that(f"topics with a template: {len(begun)} of {len(topics)}", len(begun) > 20)
     run = {}
+    write_bearing(checks, folder, call("--template", "machine", "--short", folder=folder)[1])
     for word in sorted(begun | set(ANALYSES)):
         status, text, wrong = call("--template", word, "--short", folder=folder)
         lines = text.splitlines()

@@ -17,9 +17,10 @@ from gfb.report.answer import Results  # noqa: E402
 from gfb.report.glance import glance  # noqa: E402
 from gfb.report.main import read_run, thinnest_pad, write_page  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
+from gfb.report.margin import Margin  # noqa: E402
 from gfb.report.sketch import case_sketch, sketch  # noqa: E402
 from gfb.report.thinnest import Place, place_of_thinnest  # noqa: E402
-from gfb.report.verdict import Margin, margins_of, not_computed, plain, sentence  # noqa: E402
+from gfb.report.verdict import margins_of, not_computed, plain, sentence  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 from slow import slow  # noqa: E402
 
@@ -252,6 +253,26 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(signs, {("film", "? no limit known"), ("whirl", "✓ kept")})
         hot = row("maximum_film_temperature", 373.15, "K") | row("maximum_top_foil_stress", 2.0e8, "Pa")
         self.assertIn("No limit is known for temperature, stress.", verdict(film | hot, wanted)[0])
+        limits = {"capacity": {"highest_temperature": 423.15, "largest_stress": 1.0e8}, "thermal": {"ambient_temperature": 323.15}}
+        words, signs = verdict(film | hot, limits)
+        self.assertTrue(words.startswith("Stress limits this bearing: largest stress 200 MPa, 100 MPa are allowed: 0.5 of what is needed. No limit is known for film."), words)
+        self.assertEqual(signs, {("film", "? no limit known"), ("temperature", "✓ kept"), ("stress", "✗ broken")})
+        words, _ = verdict(film | hot | row("maximum_top_foil_temperature", 448.15, "K"), limits)
+        self.assertIn("Broken, too: temperature.", words)
+        rows = {words: (value, verdict, bad) for words, value, verdict, bad in glance(film | hot, gfb.Case(SMALL | limits))}
+        self.assertEqual((rows["allowed temperature"], rows["allowed stress"]), (("film and top foil at most 100 °C", "150 °C are allowed: 2 times", False),
+                                                                                 ("largest stress 200 MPa", "100 MPa are allowed: 0.5 times", True)))
+        cold = row("maximum_film_temperature", 313.15, "K")  # than the gas around
+        self.assertEqual(verdict(film | cold, limits)[1], {("film", "? no limit known"), ("temperature", "✓ kept")})
+        many = {"sweep": {"parameter": "speed_rpm", "values": (1.0e4, 4.0e4)}} | wanted | limits | {"capacity": wanted["capacity"] | limits["capacity"]}
+        worst = row("film_margin", 0.5, "1") | row("temperature_margin", 0.8, "1") | row("stress_margin", 0.25, "1")
+        words, signs = verdict(film | hot | worst, many)
+        self.assertTrue(words.startswith("Stress limits this bearing: largest stress 400 MPa (at the worst point), 100 MPa are allowed: 0.25 of what is needed. "
+                                         "Broken, too: film, temperature."), words)
+        self.assertEqual([margin.value for margin in margins_of(Results(film | hot | worst, gfb.Case(SMALL | many)))],
+                         ["thinnest film 2.5 um", "film and top foil at most 175 °C", "largest stress 400 MPa"])
+        [(_, _, against, is_bad), *_] = glance(film | worst, gfb.Case(SMALL | many), Place(3.0, 0.0))
+        self.assertEqual((against, is_bad), ("at theta = 172 deg, z = 0 mm; 5 um are wanted: 0.5 times (at the worst point)", True))
         self.assertEqual(margins_of(Results(film, gfb.Case(SMALL | {"scene": {"analysis": "load_capacity"}} | wanted))), [])
         self.assertEqual(sentence([Margin("film", "4 um")], "No answer was found."), "No answer was found.")
         parts = [Margin("film", "4 um", "2 um are wanted", 2.0), Margin("orbit", "orbit under G 2.5", "no answer")]

@@ -99,6 +99,18 @@ class Structure(unittest.TestCase):
         joined = glued.replace("print *, 'one'", "call other()", 1)
         self.assertIn("modules glued of parts: 0 (limit 6)", self.run_tool(files={"film/both.f90": joined})[0])
 
+    def test_what_passes_the_blocks_of_a_bearing_by_is_seen(self):
+        block = "module gfb_walls\ncontains\n  subroutine create(block)\n    block%add_gap => grow\n  end subroutine create\n" \
+                "  subroutine grow()\n    print *, pad%gap(1)\n  end subroutine grow\nend module gfb_walls\n"
+        words, status = self.run_tool("--check", files={"film/walls.f90": block, "film/bearing.F90": block.replace("gfb_walls", "gfb_bearing")})
+        self.assertIn("! calls past the blocks of a bearing: 1 (limit 0), walls.f90:7", words)
+        self.assertEqual(status, 1)
+        user = "module gfb_user\n  use gfb_walls, only: grow\nend module gfb_user\n"
+        words = self.run_tool(files={"film/walls.f90": block.replace("pad%gap", "bearing%gap"), "film/user.f90": user})[0]
+        self.assertIn("! calls past the blocks of a bearing: 1 (limit 0), user.f90: grow", words)
+        words = self.run_tool(files={"film/walls.f90": block.replace("pad%gap", "bearing%gap"), "film/user.f90": user.replace("grow", "create")})[0]
+        self.assertIn("  calls past the blocks of a bearing: 0 (limit 0)", words)
+
     def test_public_names_that_only_tests_use_are_named(self):
         self.assertEqual(self.run_tool("--for-tests")[0].strip(), "src/film/gap.f90: gap")
         self.assertEqual(self.run_tool("--for-tests", files={"base/kinds.f90": KINDS, "film/gap.f90": GAP, "run/asks.f90": FOIL})[0], "")

@@ -32,6 +32,7 @@ from gfb.results import Unreadable  # noqa: E402
 from gfb.studio import pictures  # noqa: E402
 from gfb.studio.checking import check, read_messages, without_use  # noqa: E402
 from gfb.studio.keys import read_keys  # noqa: E402
+from gfb.studio.rows import cell, columns_of, shown_columns, with_cell, with_row, without_row  # noqa: E402
 from gfb.studio.runs import Folder, Refused, Run, Runs  # noqa: E402
 from gfb.studio.text import with_value, without_group  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
@@ -147,6 +148,39 @@ class Values(unittest.TestCase):
         self.assertIn("shell", self.keys["model"]["foil"].choices)
 
 
+class Rows(unittest.TestCase):
+    """The lists of a machine as tables."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.keys = read_keys(find_program())
+
+    def test_columns(self):
+        columns = columns_of("shaft", self.keys["shaft"])
+        self.assertEqual((columns[:3], "elements" in columns), (["lengths", "outer_diameters", "inner_diameters"], False))
+        shown = shown_columns("shaft", self.keys["shaft"], {"lengths": (0.1, 0.2), "poissons_ratio": 0.3})
+        self.assertEqual(shown, ["lengths", "outer_diameters", "youngs_modulus", "poissons_ratio", "density"])
+        self.assertEqual([shown_columns(group, self.keys[group], {}) for group in ("shaft", "bearing")], [[], []])
+        self.assertEqual(columns_of("bearings", self.keys["bearings"])[:2], ["files", "positions"])
+
+    def test_cells(self):
+        values = {"lengths": (0.1, 0.2, 0.3), "outer_diameters": 0.03}
+        self.assertEqual([cell(values, "shaft", name, 1) for name in ("lengths", "outer_diameters", "density")], [(0.2, False), (0.03, True), (None, False)])
+        for name, row, value, after in (("lengths", 1, 0.4, (0.1, 0.4, 0.3)), ("outer_diameters", 0, 0.04, 0.04), ("outer_diameters", 2, 0.04, (0.03, 0.03, 0.04)),
+                                        ("density", 1, 7800.0, 7800.0), ("outer_diameters", 0, None, None), ("lengths", 0, None, (0.1, 0.2, 0.3))):
+            self.assertEqual(with_cell(values, "shaft", name, row, value), after, (name, row, value))
+        self.assertEqual(with_cell({"files": "a.nml"}, "bearings", "files", 0, "b.nml"), "b.nml")
+
+    def test_rows_come_and_go(self):
+        keys, values = columns_of("shaft", self.keys["shaft"]), {"lengths": (0.1, 0.2), "outer_diameters": (0.03, 0.02), "density": 7850.0}
+        more = with_row(values, "shaft", keys)
+        self.assertEqual(more, {"lengths": (0.1, 0.2, 0.2), "outer_diameters": (0.03, 0.02, 0.02)})
+        self.assertEqual(without_row(values | more, "shaft", keys, 0), {"lengths": (0.2, 0.2), "outer_diameters": (0.02, 0.02)})
+        self.assertEqual(without_row(values, "shaft", keys, 1), {"lengths": 0.1, "outer_diameters": 0.03})
+        self.assertEqual(with_row({"lengths": 0.1, "density": 7850.0}, "shaft", keys), {"lengths": (0.1, 0.1)})
+        self.assertEqual(without_row({"lengths": 0.1}, "shaft", keys, 0), {})
+
+
 class Texts(unittest.TestCase):
     """One value changes, all else stays."""
 
@@ -253,6 +287,22 @@ class Places(InFolder):
         (self.folder/"small.run4").symlink_to(self.outside)
         self.assertEqual(place.new_run("small", SMALL).name, "small.run5")
         self.assertEqual([path.name for path in self.outside.iterdir() if path.is_file()], ["secret.nml"])
+
+    def test_a_machine_takes_its_bearings_along(self):
+        """Those of the folder alone: into the folder of its run, and for the check by their whole names."""
+        place = Folder(self.folder)
+        text = "&bearings files = 'small.nml', 'small.nml' positions = 0.1, 0.2 /\n"
+        path = place.new_run("mine", text)
+        self.assertEqual(sorted(one.name for one in path.iterdir()), ["mine.bearing_1.nml", "mine.nml"])
+        self.assertEqual((path/"mine.bearing_1.nml").read_text(encoding="utf-8"), SMALL)
+        self.assertEqual((path/"mine.nml").read_text(encoding="utf-8"), text.replace("small", "mine.bearing_1"))
+        self.assertEqual(place.whole(text), text.replace("small.nml", str(place.path/"small.nml")))
+        (self.folder/"link.nml").symlink_to(self.outside/"secret.nml")
+        for name in ("../secret.nml", str(self.outside/"secret.nml"), "link.nml", "none.nml"):
+            for way in (place.whole, lambda words: place.new_run("other", words)):
+                with self.assertRaises(Refused, msg=name):
+                    way(text.replace("small.nml", name))
+        self.assertFalse((self.folder/"other.run1").exists())
 
     def test_only_files_are_opened_and_written(self):
         """A pipe is not waited for, what is too large is not read, and no link is followed: neither to read nor to write."""
@@ -736,6 +786,46 @@ class BrowserTest(Served):
         page.press("replace it", "button")
         page.wait("document.querySelector('.cm-content').innerText.includes(\"kind = 'thrust'\")")
         page.wait("document.querySelectorAll('.beside-form .ramp').length === 7")
+        self.assert_quiet(page)
+
+    def test_a_machine_has_its_segments_in_a_table(self):
+        for path in (ROOT/"inputs/machines").glob("rotor*.nml"):
+            text = path.read_text(encoding="utf-8")
+            (self.folder/path.name).write_text(text.replace("= 120", "= 32").replace("axial_elements = 16", "axial_elements = 4"), encoding="utf-8")
+        page = self.open("rotor.nml")
+        cells = "Array.from(document.querySelectorAll(\".rows [data-key='shaft%lengths']\")).map((one) => one.value).join(' ')"
+        page.wait(f"{cells} === '40 mm 320 mm 40 mm'")
+        widths = "Array.from(document.querySelectorAll('.beside-form .of-shaft')).map((one) => one.getBBox().width.toFixed(0)).join(' ')"
+        before = page.wait(widths)
+        page.type("[data-key='shaft%lengths']", "60 mm")
+        page.wait("document.querySelector('.cm-content').innerText.includes('lengths = 0.06, 0.32, 0.04')")
+        page.wait(f"{widths} !== '{before}'")
+        page.press("add a row", "[data-group='shaft'] button")
+        page.wait("document.querySelector('.cm-content').innerText.includes('lengths = 0.06, 0.32, 0.04, 0.04')")
+        page.wait(f"{cells} === '60 mm 320 mm 40 mm 40 mm'")
+        page.press("close", "[data-group='shaft'] .rows button")
+        page.wait(f"{cells} === '320 mm 40 mm 40 mm'")
+        page.wait("document.querySelector('.verdict').innerText.includes('in order')")
+        page.wait("document.querySelector('.beside-form svg').getBoundingClientRect().top > 0")  # it stays beside the form
+        page.picture(self.outside/"machine.png")
+        page.type("[data-key='shaft%lengths']", "-1 m")
+        page.wait("document.querySelector('.verdict').innerText.includes('mistake')")
+        page.wait("document.querySelector(\"[data-group='shaft'] .said\").innerText.includes('must be positive')")
+        page.type("[data-key='shaft%lengths']", "0.3 m")
+        page.wait("document.querySelector('.verdict').innerText.includes('in order')")
+        page.press("run", "button")
+        page.wait("document.querySelector('.state')?.innerText.includes('has an answer')")
+        self.assertTrue((self.folder/"rotor.run1/rotor.bearing_2.nml").exists())
+        page.press("show results", "button")
+        page.wait("document.querySelector('.answers')?.innerText.includes('power loss of all bearings')")
+        page.press("case", "[role=tab]")
+        # A new one brings its bearings.
+        page.press("new", "button")
+        page.press("machine", ".template")
+        page.press("replace it", "button")
+        page.wait("document.querySelector('.cm-content').innerText.includes(\"'bearing.nml', 'bearing.nml'\")")
+        page.wait("document.querySelector('.verdict').innerText.includes('in order')")
+        self.assertIn("clearance = ", (self.folder/"bearing.nml").read_text(encoding="utf-8"))
         self.assert_quiet(page)
 
     def test_results_open_on_the_last_run_and_two_are_compared(self):

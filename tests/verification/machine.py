@@ -205,6 +205,7 @@ def check_invariants(checks, folder):
     light["machine"]["gravity"] = (0.0, 0.0)
     checks.below("without weight", numpy.abs(numbers(solve(folder, "light", light), PLACES)[:, :2]).max(), 1.0e-12)
     check_balance(checks, base, content)
+    check_shaft(checks, base, content)
     check_alone(checks, folder, base, content)
 
 
@@ -242,6 +243,25 @@ def check_balance(checks, base, content):
     by_force = -numbers(base, FORCES)[:, :2]*lever[:, None]
     moment = moments + (-by_force[:, 1].sum(), by_force[:, 0].sum())
     checks.below("moments about the centre of mass", numpy.abs(moment).max()/(numpy.abs(weight).max()*numpy.abs(lever).max()), 1.0e-7)
+
+
+def check_shaft(checks, base, content):
+    """Along the shaft: shear jumps at a bearing by what it carries, at a disc by its weight; free ends; the line for ParaView."""
+    with h5py.File(f"{base.stem}.h5", "r") as file:
+        rows, table = file["shaft/sections"][...], file["shaft/bearings"][...]
+    force = -numbers(base, FORCES)
+    size = numpy.abs(force[:, :2]).max()
+    acting = [(z, *forces) for z, forces in zip(content["bearings"]["positions"], force[:, :2])]
+    acting += [(z, mass*content["machine"]["gravity"][0], mass*content["machine"]["gravity"][1])
+               for z, mass in zip(content["discs"]["positions"], content["discs"]["masses"])]
+    for z, *acts in acting:
+        left, right = (rows[k::2][numpy.abs(rows[k::2, 0] - z) < 1.0e-9] for k in (1, 0))
+        checks.below(f"shear jumps at {z} m", numpy.abs(left[:, 4:6] - right[:, 4:6] - acts).max()/size, 1.0e-8)
+    checks.below("free ends", numpy.abs(rows[[0, -1], 2:6]).max()/size, 1.0e-8)
+    checks.that("its bearings", table[:, 0].tolist() == list(content["bearings"]["positions"]) and (table[:, 3] < 1.0e-4).all())
+    with h5py.File(f"{base.stem}.shaft.vtkhdf", "r") as file:
+        checks.that("a line of pieces", set(file["VTKHDF/Types"][...]) == {3} and len(file["VTKHDF/Points"]) == len(rows))
+        checks.below("stress in both files", numpy.abs(file["VTKHDF/PointData/bending_stress"][...].ravel() - rows[:, 6]).max(), 1.0e-6)
 
 
 def check_alone(checks, folder, base, content):

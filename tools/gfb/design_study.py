@@ -1,5 +1,5 @@
 """The whole study of one bearing: film, directions of the load, capacity and lift-off over the speed, vibrations, whirl, orbit under a
-balance grade, misalignment, tolerances.
+balance grade, misalignment, tolerances. Of a machine: modes and response under a balance grade, over the speed, and each bearing alone.
 
   tools/design CASE.nml          a page, results/CASE.design/CASE.html, and the same as a table
 
@@ -23,28 +23,22 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gfb.case import Case, CaseError
+from gfb.design_machine import answer_campbell, base_of, bearing_of, is_of_one_bearing, parts_of_machine, rows_of_point
+from gfb.design_parts import DIRECTIONS, ORBIT_STEADY, ORBIT_TURNS, SPEEDS, WHIRL_SPEEDS, with_analysis
 from gfb.design_work import Part, Progress, compute_all, duration, tilt_words
 from gfb.report.answer import LAST_STATE, Results, carried_by, film_words, why_none
+from gfb.report.machine import is_machine
 from gfb.report.main import read_run, write_page
 from gfb.report.thinnest import SAME
-from gfb.report.verdict import NO_ANSWER, ONSET, Margin, compared, margins_of, not_computed, sentence
+from gfb.report.margin import NO_ANSWER, ONSET, Margin, compared
+from gfb.report.verdict import margins_of, not_computed, sentence
 from gfb.results import read_history
 from gfb.running import Result
 from gfb.tool import RunError, draw_into_files, parser_of, say
 
-DIRECTIONS = 12                      # of the load, around the bearing
-SPEEDS = (0.5, 0.75, 1.0, 1.25)      # over the speed of the case, of capacities
-WHIRL_SPEEDS = (0.4, 0.55, 0.7, 0.85, 1.0, 1.15, 1.3)
-FREQUENCY_RATIOS = (0.25, 0.5, 1.0)  # of vibrations over the speed, where the case has none
 SMALLEST_GAP = 4.0e-6                # m: the film at which load and tilt have reached their limit, where the case has none
 GRADE = 2.5                          # mm/s, ISO 21940-11: of turbines
 IDLE = re.compile(r"&sensitivity: parameters(?:\(\d+\))? = '([\w%]+)'")  # a key whose tolerance is none of this case
-ORBIT_TURNS, ORBIT_STEADY = 60, 1.0e-3
-WORK = {"point": "the equilibrium, its stiffness and damping", "directions": f"{DIRECTIONS} equilibria", "capacity": f"a search at each of {len(SPEEDS)} speeds",
-        "misalignment": "a search for the tilt", "lift_off": "a search for the speed", "whirl": f"stiffness and damping at {len(WHIRL_SPEEDS)} speeds",
-        "orbit": f"steps in time over up to {ORBIT_TURNS} turns", "tolerances": "the equilibrium and derivatives by keys"}
-STATE = ("scene", "bearing", "pads", "ramp", "bore", "gas", "shaft_contact", "thermal", "operation", "model", "mesh", "top_foil",
-         "bump_foil", "contact", "solver", "output")
 # What a drawing leaves open, as a standard deviation: a length [m], or a part of the value.
 TOLERANCES = {"bearing%clearance": (2.0e-6, 0.0), "bump_foil%height": (1.0e-5, 0.0), "ramp%height": (2.0e-6, 0.0),
               "bump_foil%thickness": (0.0, 0.03), "bump_foil%half_length": (0.0, 0.02), "top_foil%thickness": (0.0, 0.03),
@@ -62,6 +56,7 @@ class Design:
     name: str
     margins: list[Margin] = dataclasses.field(default_factory=list)
     verdict: str = ""         # what limits the bearing, in a sentence
+    grade: float = GRADE      # of the balance [mm/s]
     runs: dict[str, dict[str, Any]] = dataclasses.field(default_factory=dict, repr=False)  # what a part has found, by its name, read once
     shown: dict[pathlib.Path, Any] = dataclasses.field(default_factory=dict, repr=False)   # what the page has of a part, drawn once
 
@@ -70,7 +65,7 @@ class Design:
         for part in self.parts:
             if part.stem and part.name not in self.runs:
                 self.runs[part.name] = read_run(part.stem, gfb, pictures=False) | {"points": read_history(f"{part.stem}.h5")}
-        self.rows = rows_of(self.parts, self.runs)
+        self.rows = rows_of(self.parts, self.runs, self.grade)
         self.margins = margins_of_parts(self.parts, self.runs, smallest_gap)
         point = self.runs.get("point")
         left = not_computed(Results(point["summary"], point["used"]), self.margins) if point else []
@@ -103,12 +98,12 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
     stops a part, 0: none is; filled: called with what there is after each part. Raises CaseError where the case itself is wrong."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    parts = parts_of(case, smallest_gap, grade)
+    parts = parts_of_machine(case, smallest_gap, gap_of(case, smallest_gap), grade, gfb) if is_machine(case) else parts_of(case, smallest_gap, grade)
     if parts[0].case is not None:  # what is wrong with the case itself is said
         parts[0].case.check(gfb=gfb)
     for part in parts:
         check_part(part, gfb)
-    found, gap = Design(parts, [], folder, name), gap_of(case, smallest_gap)
+    found, gap = Design(parts, [], folder, name, grade=grade), gap_of(case, smallest_gap)
     progress, lock = Progress(sum(part.case is not None for part in parts), tell, seconds), threading.Lock()
 
     def after(part: Part, result: Result | None, new: bool) -> None:
@@ -176,17 +171,6 @@ def gap_of(case: Case, smallest_gap: float | None) -> float:
     return smallest_gap or (float(case["capacity%smallest_gap"]) if "capacity%smallest_gap" in case else SMALLEST_GAP)
 
 
-def with_analysis(case: Case, name: str, question: str, analysis: str, kept: Sequence[str] = (), **groups: dict[str, Any]) -> Part:
-    """A part of the study: the bearing of the case under another analysis."""
-    one = Case({group: keys for group, keys in case.groups.items() if group in (*STATE, *kept)} | groups)
-    one["scene%analysis"] = analysis
-    if analysis == "linear_dynamics" and not {"dynamics%frequencies", "dynamics%frequency_ratios"} & set(one):
-        one["dynamics%frequency_ratios"] = FREQUENCY_RATIOS
-    one["scene%title"] = f"{case.groups['scene'].get('title', '')}: {question}".lstrip(": ")
-    points = len(one.listed("sweep%values")) if "sweep%values" in one else 1
-    return Part(name, question, one, states=points if analysis in ("equilibrium", "linear_dynamics") else 0, work=WORK[name])
-
-
 def orbit_of(case: Case, grade: float, speed: float, thrust: bool, given: dict[str, Any]) -> Part:
     """The steady orbit under the unbalance that a grade allows: mass times grade over the angular speed; given: the film wanted."""
     question = f"orbit under balance grade G {grade:g}"
@@ -220,7 +204,7 @@ def without_idle_keys(case: Case, complaint: str) -> bool:
 
 # --- the answers ---
 
-def rows_of(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]]) -> list[tuple[str, str, str, bool]]:
+def rows_of(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], grade: float = GRADE) -> list[tuple[str, str, str, bool]]:
     """Question, answer, margin and whether it is a bad one, of all parts."""
     rows = []
     for part in parts:
@@ -235,9 +219,9 @@ def rows_of(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]]) -> list[t
         elif not run["converged"]:
             rows.append((part.question, NO_ANSWER, f"{why_none(run['summary'])}; {LAST_STATE} is below", True))
         elif part.name == "point":
-            rows += run["glance"]
+            rows += run["glance"] if is_of_one_bearing(parts) else rows_of_point(run, grade)
         else:
-            rows += ANSWERS[part.name](part.question, run)
+            rows += ANSWERS[base_of(part.name)](part.question, run)
     return rows
 
 
@@ -248,6 +232,7 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
         run = runs.get(part.name)
         if run is None or part.name == "tolerances":
             continue
+        of_machine: dict[str, Any] = {"where": bearing_of(part.name)} | ({} if is_of_one_bearing(parts) else {"body": "machine"})
         if not run["converged"]:
             found.append(Margin(part.name.replace("_", "-"), part.question, NO_ANSWER))
         elif part.name == "directions":
@@ -255,10 +240,12 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
             worst = first_of(films, min(films))
             found.append(compared("film", film_words(films[worst], f"under a load at {angles[worst] % 360.0:.0f} deg"),
                                   f"{1.0e6*gap:.3g} um are wanted", films[worst]/gap, "load from every direction"))
-        elif part.name == "capacity":
-            found += [margin for margin in [margin_of_capacity(run)] if margin.limit]
-        elif part.name == "whirl":  # its own speed is that of the operating point
-            found += [one for one in run["margins"] if one.result == ONSET]
+        elif base_of(part.name) == "capacity":
+            found += [dataclasses.replace(margin, **of_machine) for margin in [margin_of_capacity(run)] if margin.limit]
+        elif base_of(part.name) in ("whirl", "campbell"):  # its own speed is that of the operating point
+            found += [dataclasses.replace(one, **of_machine) for one in run["margins"] if one.result == ONSET]
+        elif is_machine(run["used"]):
+            found += run["margins"]
         else:
             own = margins_of(Results(run["summary"], run["used"], run["place"]), gap)
             found += own if part.name == "point" else [dataclasses.replace(one, where=part.question) for one in own]
@@ -359,13 +346,13 @@ def answer_limit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str
 
 
 ANSWERS = {"directions": answer_directions, "capacity": answer_capacity, "whirl": answer_whirl, "orbit": answer_orbit,
-           "tolerances": answer_tolerances, "misalignment": answer_limit, "lift_off": answer_limit}
+           "tolerances": answer_tolerances, "campbell": answer_campbell, "misalignment": answer_limit, "lift_off": answer_limit}
 
 
 def main() -> int:
     """The command."""
     parser = parser_of("tools/design", __doc__)
-    parser.add_argument("case", type=pathlib.Path, metavar="CASE.nml", help="a bearing with a load")
+    parser.add_argument("case", type=pathlib.Path, metavar="CASE.nml", help="a bearing with a load, or a machine")
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR", help="folder; default: results/CASE.design")
     parser.add_argument("--smallest-gap", type=float, metavar="M", help=f"film at which a limit is reached [m]; default: the case's, or {SMALLEST_GAP:g}")
     parser.add_argument("--grade", type=float, default=GRADE, metavar="G", help=f"balance grade of the rotor, ISO 21940 [mm/s]; default: {GRADE:g}")
@@ -387,7 +374,7 @@ def main() -> int:
 
     try:
         case = Case.read(options.case)
-        if "operation%axial_load" not in case and "operation%load" not in case:
+        if not is_machine(case) and "operation%axial_load" not in case and "operation%load" not in case:
             raise CaseError(f"{options.case}: a study needs a load in &operation")
         found = design(case, options.output or pathlib.Path("results")/f"{options.case.stem}.design", options.case.stem,
                        options.smallest_gap, options.grade, options.processes, options.gfb, seconds=options.seconds, filled=fill)

@@ -18,7 +18,7 @@ KINDS = {h5py.h5l.TYPE_SOFT: "a soft link", h5py.h5l.TYPE_EXTERNAL: "a link into
 NUMBERS = (h5py.h5t.INTEGER, h5py.h5t.FLOAT)
 HISTORY = b"history/"
 ECHO = b"scene/used"
-TEXTS = (ECHO, b"scene/case_file")
+SCENE = b"scene/"  # texts alone
 
 
 def look_through(file, size):
@@ -36,9 +36,9 @@ def look_through(file, size):
             rows.add(column_rows(name, data))
     if len(rows) > 1:
         raise ValueError(f"history: its columns have {min(rows)} to {max(rows)} rows")
-    for name in TEXTS:
-        if name in arrays:
-            check_text(name, arrays[name], sizes[name])
+    for name, data in arrays.items():
+        if name.startswith(SCENE):
+            check_text(name, data, sizes[name])
 
 
 def words_of(name):

@@ -17,11 +17,13 @@ TILTING = {"rotor%transverse_inertia": 1.0e-3, "rotor%bearing_distance": 0.12, "
            "mesh%circumferential_elements": 52, "mesh%axial_elements": 4}
 # Of any mesh the files hold the same.
 COARSE = {"mesh%circumferential_elements": 48, "mesh%axial_elements": 4}
+COARSE_BEAMS = {"mesh%circumferential_elements": 52, "mesh%axial_elements": 4}
 SWEPT = {"sweep%parameter": "speed_rpm", "sweep%values": (30000.0, 35000.0)}
 SCENES: tuple[tuple[str, dict[str, Any]], ...] = (  # analysis of the template, what is changed in it
     ("equilibrium", COARSE), ("equilibrium", SAMPLE), ("strip", {}), ("modes", {}),
     ("linear_dynamics", {"rotor%mass": 0.1, **COARSE}), ("equilibrium", {**SWEPT, **COARSE}),
-    ("transient", TILTING), ("periodic", {}))
+    ("transient", TILTING), ("periodic", {}),
+    ("machine", {f"bearing_{number}%{key}": value for number in (1, 2) for key, value in COARSE_BEAMS.items()}))
 
 
 def layout(gfb):
@@ -44,7 +46,7 @@ def layout(gfb):
 
 def kind_of(path):
     """A file's name as the manual writes it, and the part of the bearing."""
-    part, _, ending = path.name.partition(".")[2].partition(".")
+    part, _, ending = re.sub(r"^bearing_\d+\.", "", path.name.partition(".")[2]).partition(".")
     part = re.sub(r"_\d+$", "", part)  # of several pads, of two bearings
     return (f"<case>.<part>.{ending}", part) if ending else (f"<case>.{part}", "")
 

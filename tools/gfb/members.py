@@ -8,6 +8,8 @@ import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 
+import h5py
+
 from gfb.case import Case
 from gfb.program import DONE, NOT_CONVERGED, OUT_OF_TIME, PathLike, call, find_program, words_of
 from gfb.results import Unreadable, open_results, read_summary, reading, text_of
@@ -56,7 +58,7 @@ def kept_results(case: Case, stem: pathlib.Path) -> Iterator[tuple[str, Result]]
         one = stem.with_name(stem.name + ending)
         try:
             with reading(f"{one}.h5"), open_results(f"{one}.h5") as file:
-                if text_of(file["scene/case_file"][()]) != str(case):
+                if not is_of(file, case, stem.name):
                     continue
                 version, commit = (text_of(file[f"provenance/{name}"][()]) for name in ("program_version", "commit"))
             summary, units = read_summary(f"{one}.summary")
@@ -64,6 +66,14 @@ def kept_results(case: Case, stem: pathlib.Path) -> Iterator[tuple[str, Result]]
             continue
         if summary.get("outcome") not in AGAIN:
             yield f"gfb {version} ({commit})", Result(status, "", "", one, summary, units)
+
+
+def is_of(file: h5py.File, case: Case, stem: str) -> bool:
+    """Whether an open result is of this very case, and a machine's of these very bearings."""
+    there = file["scene"]
+    texts = case.bearing_texts()
+    return text_of(there["case_file"][()]) == case.text(stem) and \
+        [f"bearing_{number}" in there and text_of(there[f"bearing_{number}"][()]) for number in range(1, len(texts) + 1)] == list(texts)
 
 
 def find_member(case: Case, stem: pathlib.Path, gfb: PathLike | None) -> Result | None:

@@ -8,7 +8,7 @@ from typing import Any, Union
 
 Value = Union[str, bool, int, float, Sequence[float], Sequence[str]]
 Groups = dict[str, dict[str, Any]]
-TOKENS = re.compile(r"'(?:[^']|'')*'|\"(?:[^\"]|\"\")*\"|![^\n]*|[&/=,]|[^\s&/=,!'\"]+")
+TOKENS = re.compile(r"(?:\d+\*)?'(?:[^']|'')*'|(?:\d+\*)?\"(?:[^\"]|\"\")*\"|![^\n]*|[&/=,]|[^\s&/=,!'\"]+")
 
 MOST_VALUES = 1_000_000  # of all keys; the program takes 10,000 of one
 DEFAULT = "(default)"    # how the comment of a value that the case does not give ends, in the program's echo of it

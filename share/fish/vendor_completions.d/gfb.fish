@@ -12,7 +12,7 @@ complete -c gfb -l csv -d 'write history, motion or orbits as CASE.csv, too (a s
 complete -c gfb -l decimal-comma -d 'these tables with 1,5 for one and a half, and ; between columns'
 complete -c gfb -l groups -x -d 'divide the ranks into N groups, and among them the points of the case\'s sweep, or several cases: CASE1.nml CASE2.nml ...'
 complete -c gfb -l name -x -d 'of the table of several cases; default: ensemble'
-complete -c gfb -l template -x -a 'equilibrium fixed_position strip modes linear_dynamics load_capacity lift_off misalignment_allowance transient periodic thrust' -d 'a case file to begin with, all keys with unit, default and meaning; A: equilibrium, fixed_position, strip, modes, linear_dynamics, load_capacity, lift_off, misalignment_allowance, transient, periodic, thrust'
+complete -c gfb -l template -x -a 'equilibrium fixed_position strip modes linear_dynamics load_capacity lift_off misalignment_allowance transient periodic thrust machine' -d 'a case file to begin with, all keys with unit, default and meaning; A: equilibrium, fixed_position, strip, modes, linear_dynamics, load_capacity, lift_off, misalignment_allowance, transient, periodic, thrust, machine'
 complete -c gfb -l short -d 'of --template only what the case needs, 25 lines; A may be a topic of --explain, too'
 complete -c gfb -l explain -x -d 'a key (or group%key), a group, the name of a result, a value of a key, or a word of the field; --explain topics lists these; of any other word, all whose meanings have it; gfb help NAME does the same'
 complete -c gfb -l keys -d 'table of all keys of a case file; of CASE.nml with why a key has no use in it'

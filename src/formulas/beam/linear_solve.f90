@@ -3,7 +3,7 @@ module gfb_linear_solve
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: solve_positive, solve_general, solve_both_sides, determinant_logarithm
+  public :: solve_positive, solve_general, factorize, solve_both_sides, determinant_logarithm
 
   interface
     !> LAPACK: symmetric positive definite equations.
@@ -24,6 +24,28 @@ module gfb_linear_solve
       real(wp), intent(inout) :: a(lda, n), b(ldb, nrhs)
       integer, intent(out) :: ipiv(n), info
     end subroutine dgesv
+
+    !> LAPACK: factors of a general matrix.
+    pure subroutine dgetrf(m, n, a, lda, ipiv, info)
+      import :: wp
+      implicit none (type, external)
+      integer, intent(in) :: m, n, lda
+      real(wp), intent(inout) :: a(lda, n)
+      integer, intent(out) :: ipiv(n), info
+    end subroutine dgetrf
+
+    !> LAPACK: general equations with factors.
+    pure subroutine dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+      import :: wp
+      implicit none (type, external)
+      character(len=1), intent(in) :: trans
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(in) :: a(lda, n)
+      integer, intent(in) :: ipiv(n)
+      real(wp), intent(inout) :: b(ldb, nrhs)
+      integer, intent(out) :: info
+    end subroutine dgetrs
+
     !> LAPACK: general complex equations.
     pure subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
       import :: wp
@@ -53,6 +75,14 @@ module gfb_linear_solve
       integer, intent(out) :: info
     end subroutine zgetrs
   end interface
+
+  !> Factors of a matrix, for right sides that come one after the other.
+  type, public :: dense_factors_type
+    real(wp), allocatable, private :: factor(:, :)
+    integer, allocatable, private :: pivots(:)
+  contains
+    procedure :: solution
+  end type dense_factors_type
 
   !> Equations of any matrix, for one right side or several; complex for one.
   interface solve_general
@@ -105,7 +135,35 @@ contains
     solved = info == 0
   end subroutine solve_several
 
-  !> The same of complex equations for one right side.
+  !> Factors of any matrix; `.false.` if it is singular.
+  pure subroutine factorize(matrix, factors, regular)
+    real(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
+    type(dense_factors_type), intent(out) :: factors
+    logical, intent(out) :: regular
+    integer :: info
+
+    factors%factor = matrix
+    allocate (factors%pivots(size(matrix, 1)))
+    call dgetrf(size(matrix, 1), size(matrix, 1), factors%factor, max(1, size(matrix, 1)), &
+                factors%pivots, info)
+    regular = info == 0
+  end subroutine factorize
+
+  !> The solution for one right side.
+  pure function solution(self, right_side) result(column)
+    class(dense_factors_type), intent(in) :: self !! of a regular matrix
+    real(wp), intent(in) :: right_side(:) !! (n), in any unit [SI]
+    real(wp) :: column(size(right_side))
+    real(wp) :: columns(size(right_side), 1)
+    integer :: info
+
+    columns(:, 1) = right_side
+    call dgetrs('N', size(right_side), 1, self%factor, max(1, size(right_side)), self%pivots, &
+                columns, max(1, size(right_side)), info)
+    column = columns(:, 1)
+  end function solution
+
+  !> Solves complex equations for one right side; `.false.` if the matrix is singular.
   pure subroutine solve_complex(matrix, right_side, solved)
     complex(wp), intent(in) :: matrix(:, :) !! (n, n), in any unit [SI]
     complex(wp), intent(inout) :: right_side(:) !! (n): in the right side, out the solution [SI]

@@ -142,17 +142,19 @@ contains
     square = spread(column, 2, element_size)*spread(column, 1, element_size)
   end function square
 
-  !> Bending moment \( E I \psi' \) and shear force \( \kappa G A (w' - \psi) \) at a place.
-  pure function section_forces(section, length, at, ends) result(force)
+  !> Bending moment \( E I \psi' \) and shear force \( \kappa G A (w' - \psi) \) at both ends, from
+  !> the balance of the element: exact at rest, whatever its length, where shapes are not.
+  pure function section_forces(section, length, ends, acceleration) result(force)
     type(shaft_section_type), intent(in) :: section !! of the element
     real(wp), intent(in) :: length !! L [m]
-    real(wp), intent(in) :: at     !! from the first end, over the length [1]
     real(wp), intent(in) :: ends(element_size) !! w and psi of both [m], [1]
-    real(wp) :: force(2) !! [N m], [N]
-    real(wp) :: displacement(element_size), slope(element_size), curvature(element_size)
+    real(wp), intent(in) :: acceleration !! of free fall, along w [m/s2]
+    real(wp) :: force(2, 2) !! (moment and shear, first and second end) [N m], [N]
+    type(element_matrices_type) :: element
+    real(wp) :: held(element_size)
 
-    call shapes(section, length, at, displacement, slope, curvature)
-    force(1) = section%bending*dot_product(curvature, ends)
-    force(2) = section%shear*dot_product(shear_strain(section, length), ends)
+    element = element_matrices(section, length)
+    held = matmul(element%stiffness, ends) - acceleration*element%weight
+    force = reshape([-held(2), -held(1), held(4), held(3)], shape(force))
   end function section_forces
 end module gfb_shaft_element

@@ -28,6 +28,8 @@ module gfb_bearing_answer
     real(wp) :: area = 0.0_wp          !! of the pads of one side [m2]
     !> of the first pad's top foil, at the inner and outer corner of its trailing edge [m]
     real(wp) :: trailing_deflection(2) = 0.0_wp
+    integer :: thinnest_pad = 1        !! number of that whose film is thinnest, of all sides
+    real(wp) :: thinnest_deflection(2) = 0.0_wp !! the same as `trailing_deflection` of that one [m]
     real(wp) :: centre(2) = 0.0_wp     !! of the pressure on pad 1, from its leading edge; 0: none
     integer :: pads = 1, pads_solved = 1 !! of all sides
     integer :: sides = 1 !! of the runner that bear it
@@ -151,7 +153,7 @@ contains
     if (whole) answer%contact = measures_of(largest(9:), sum(contact, 2))
     if (whole .and. bearing%mesh%surface%is_ring()) then
       answer%ring = ring_answer(bearing, pressure)
-      if (answer%has_foils) answer%ring%trailing_deflection = trailing_deflection(bearing, unknown)
+      if (answer%has_foils) call read_trailing_edges(bearing, unknown, answer)
       if (answer%ring%sides > 1) call read_other_side(bearing, answer)
     end if
   end function bearing_answer
@@ -197,15 +199,35 @@ contains
     end associate
   end subroutine read_other_side
 
-  !> Deflection of the first pad's top foil at the inner and outer corner of its trailing edge [m].
-  function trailing_deflection(bearing, unknown) result(corner)
+  !> Deflections at trailing edges: of the first pad, and of the one whose film is thinnest.
+  subroutine read_trailing_edges(bearing, unknown, answer)
     class(bearing_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    type(bearing_answer_type), intent(inout) :: answer !! with the gaps of all pads
+    real(wp), parameter :: alike = 1.0e-9_wp !! of gaps that differ by rounding: the first pad [1]
+    integer :: thinnest
+
+    associate (ring => answer%ring)
+      ring%trailing_deflection = trailing_deflection(bearing, 1, unknown)
+      ring%thinnest_deflection = ring%trailing_deflection
+      if (.not. allocated(answer%pad_gap)) return
+      thinnest = findloc(answer%pad_gap <= answer%minimum_gap + alike*abs(answer%minimum_gap), &
+                         .true., dim=1)
+      ring%thinnest_pad = (thinnest - 1)*bearing%mesh%repeats + 1
+      ring%thinnest_deflection = trailing_deflection(bearing, thinnest, unknown)
+    end associate
+  end subroutine read_trailing_edges
+
+  !> Deflection of a pad's top foil at the inner and outer corner of its trailing edge [m].
+  function trailing_deflection(bearing, number, unknown) result(corner)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: number !! of the pad
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp) :: corner(2)
     integer :: i, last
 
     corner = 0.0_wp
-    associate (pad => bearing%pad(1))
+    associate (pad => bearing%pad(number))
       last = pad%whole%nodes()
       associate (moved => pad%foil%deflection(unknown(pad%first + 1:pad%last)))
         do i = 1, size(moved)

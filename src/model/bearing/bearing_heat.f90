@@ -15,6 +15,8 @@ module gfb_bearing_heat
   public :: number_heat, growth_of, moduli_at, temperatures_at, heat_sizes, row_of
 
   real(wp), parameter, public :: heat_scale = 100.0_wp !! size of a temperature [K]
+  !> the modulus of top foil, bumps: by the sleeve's temperature as by that of the top foil
+  logical, parameter, public :: softens_with_sleeve(2) = [.false., .true.]
 
   !> A wall of one temperature.
   type, public :: wall_type

@@ -13,7 +13,7 @@ module gfb_heat_switch
   use gfb_bearing_system, only: bearing_system_type, bearing_order, set_up_equations, free_equations
   implicit none (type)
   private
-  public :: add_heat, freeze_heat, hold_heat, follow_frozen, visit_frozen
+  public :: add_heat, freeze_heat, hold_heat, let_go, follow_frozen, visit_frozen
 
   !> A bearing as a motion of its shaft meets it, see `hold_heat`. What it has of its own is freed when the variable goes, however
   !> the procedure ends.
@@ -97,9 +97,12 @@ contains
   subroutine let_go(self)
     type(held_bearing_type), intent(inout) :: self !! goes
 
-    if (.not. self%has_own) return
-    call free_equations(self%bearing)
-    deallocate (self%bearing)
+    if (self%has_own) then
+      call free_equations(self%bearing)
+      deallocate (self%bearing)
+    end if
+    self%has_own = .false.
+    nullify (self%bearing)
   end subroutine let_go
 
   !> Gives films that have none the temperatures of others, which are meshed alike, and foils their moduli; of two bearings both

@@ -17,7 +17,7 @@ module gfb_changed_foil
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_model, only: foil_model_type
   use gfb_foil_places, only: set_laws
-  use gfb_meshed_foil, only: meshed_foil_type, bump_surface
+  use gfb_meshed_foil, only: meshed_foil_type
   implicit none (type, external)
   private
   public :: take_foil_numbers, elastic_work
@@ -49,7 +49,9 @@ contains
     end do
     if (foil%contacts%at_faces) then
       surface = foil%surfaces()
-      call take_levers(scene, strip_on_pad(scene, film, stations_of(surface(bump_surface)%mesh)), foil%contacts)
+      associate (bumps => surface(findloc(surface%lies_on_film, .false., dim=1)))
+        call take_levers(scene, strip_on_pad(scene, film, stations_of(bumps%mesh)), foil%contacts)
+      end associate
     end if
     call foil%contacts%linearise_again()
   end subroutine take_foil_numbers
@@ -95,11 +97,11 @@ contains
 
     surface = foil%surfaces()
     associate (one => surface(number))
-      if (number == bump_surface) then
+      if (one%lies_on_film) then
+        one%section = plate_section(scene)
+      else
         one%mesh = strip_on_pad(scene, film, stations_of(one%mesh))
         one%section = section_of(scene%bump_foil)
-      else
-        one%section = plate_section(scene)
       end if
       select type (foil)
       class is (meshed_foil_type)

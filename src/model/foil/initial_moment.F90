@@ -19,7 +19,7 @@ module gfb_initial_moment
   use gfb_film_mesh, only: film_mesh_type
   use gfb_foil_surface, only: foil_surface_type
   use gfb_planar_beam, only: beam_section_type, plane_strain_section
-  use gfb_meshed_foil, only: meshed_foil_type, top_surface
+  use gfb_meshed_foil, only: meshed_foil_type
   implicit none (type)
   private
   public :: add_initial_moment, set_initial_moment
@@ -35,14 +35,15 @@ contains
     class(meshed_foil_type), intent(inout) :: foil !! gets the load
     type(foil_surface_type), allocatable :: surface(:)
     real(wp) :: along(size(film%station_angle)), across(size(film%row_axial))
-    integer :: i, station, row
+    integer :: i, station, row, top
 
     if (.not. abs(initial_curvature(top_foil, film%surface%radius)) > 0.0_wp) return
     allocate (foil%initial_shape(foil%local_unknowns(), 2), source=0.0_wp)
     along = tributary(film%surface%radius*film%station_angle)
     across = tributary(film%row_axial)
     surface = foil%surfaces()
-    associate (part => surface(top_surface)%part)
+    top = findloc(surface%lies_on_film, .true., dim=1)
+    associate (part => surface(top)%part)
       do i = 1, size(part%mesh_node)
         if (.not. part%owned(i)) cycle
         station = (part%mesh_node(i) - 1)/size(across) + 1
@@ -62,7 +63,7 @@ contains
       real(wp), intent(in) :: force !! of a moment 1 N [1/m], [m]
       integer :: number
 
-      number = foil%own_unknown(top_surface, component, surface(top_surface)%part%mesh_node(i))
+      number = foil%own_unknown(top, component, surface(top)%part%mesh_node(i))
       if (number > 0) foil%initial_shape(number, part) = foil%initial_shape(number, part) + force
     end subroutine add
   end subroutine add_initial_moment

@@ -18,7 +18,7 @@ module gfb_largest_stress
   !> A corner of an element of a surface, and a face there.
   type, public :: stress_place_type
     integer :: pad = 0     !! of the bearing; 0: no pad has such a surface
-    integer :: surface = 0 !! of its foil: `top_surface` or `bump_surface`; 0: it has none such
+    integer :: surface = 0 !! of its foil's `surfaces`; 0: it has none such
     integer :: element = 0 !! among this rank's; 0: another rank's
     integer :: corner = 0  !! of the element
     integer :: face = 0    !! `lower_face` or `upper_face`
@@ -68,7 +68,7 @@ contains
     call foil%split_displacements(unknown, moved)
     do i = 1, size(list)
       list(i)%surface = surface(i)
-      list(i)%moved = from_rest(foil, i, surface(i), moved(i)%value)
+      list(i)%moved = from_rest(foil, surface(i), moved(i)%value)
     end do
   end function moved_surfaces
 

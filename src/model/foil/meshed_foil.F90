@@ -107,6 +107,7 @@ contains
     list(top_surface) = top
     list(bump_surface) = bumps
     list(top_surface)%name = 'top_foil'
+    list(top_surface)%lies_on_film = .true.
     list(bump_surface)%name = 'bump_foil'
     list(bump_surface)%has_contacts = .true.
   end function both_surfaces
@@ -321,20 +322,19 @@ contains
     call self%split_displacements(unknown, moved)
     do i = 1, size(list)
       call move_alloc(moved(i)%value, list(i)%displacement)
-      list(i)%stress = modulus(i)*self%stresses(surface(i), from_rest(self, i, surface(i), list(i)%displacement))
+      list(i)%stress = modulus(i)*self%stresses(surface(i), from_rest(self, surface(i), list(i)%displacement))
     end do
   end function meshed_motions
 
   !> Displacements of a surface from where it is free of stress.
-  function from_rest(foil, number, surface, displacement) result(moved)
+  function from_rest(foil, surface, displacement) result(moved)
     class(meshed_foil_type), intent(in) :: foil !! whose surface it is
-    integer, intent(in) :: number !! `top_surface` or `bump_surface`
     type(foil_surface_type), intent(in) :: surface !! that
     real(wp), intent(in) :: displacement(:, :) !! (5, local nodes) [m], [rad]
     real(wp) :: moved(size(displacement, 1), size(displacement, 2)) !! [m], [rad]
 
     moved = displacement
-    if (number == top_surface .and. allocated(foil%initial_load)) moved = moved - free_shape(surface, foil%initial_curvature)
+    if (surface%lies_on_film .and. allocated(foil%initial_load)) moved = moved - free_shape(surface, foil%initial_curvature)
   end function from_rest
 
   !> Displacements that take the initial bending off a foil that was unrolled: of a cylinder.

@@ -283,6 +283,7 @@ contains
     allocate (list(top_surface))
     list(top_surface) = self%top%foil_surface_type
     list(top_surface)%name = 'top_foil'
+    list(top_surface)%lies_on_film = .true.
     list(top_surface)%has_contacts = self%has_contacts() .and. .not. self%at_points
   end function plate_surfaces
 

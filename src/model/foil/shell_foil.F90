@@ -167,6 +167,7 @@ contains
           one%is_retained = retained_in_piece(free, first)
         end associate
       end associate
+      one%surface = bump_surface
       one%place = mine
       if (allocated(one%number)) deallocate (one%number)
       allocate (one%number(count(one%is_retained), size(mine)))

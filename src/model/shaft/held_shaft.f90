@@ -19,7 +19,6 @@ module gfb_held_shaft
   type, public :: held_shaft_type
     integer, allocatable :: held(:)        !! places of the journals' motions among the shaft's
     integer, allocatable :: free(:)        !! of the rest
-    real(wp), allocatable :: sign(:)       !! of the former [1]
     real(wp), allocatable :: stiffness(:, :) !! S [SI]
     real(wp), allocatable :: force(:)      !! g [N], [N m]
     real(wp), allocatable :: follows(:, :) !! the rest over the journals' motions
@@ -29,18 +28,16 @@ module gfb_held_shaft
 contains
 
   !> Condenses a shaft; `.false.` where nothing holds it.
-  pure subroutine hold_shaft(matrix, force, place, sign, shaft, regular)
+  pure subroutine hold_shaft(matrix, force, place, shaft, regular)
     real(wp), intent(in) :: matrix(:, :) !! H [SI]
     real(wp), intent(in) :: force(:)     !! r [N], [N m]
-    integer, intent(in) :: place(:)      !! of the journals' motions, as `journal_places` has them
-    real(wp), intent(in) :: sign(:)      !! of these [1]
+    integer, intent(in) :: place(:)      !! of the journals' motions among all, each once
     type(held_shaft_type), intent(out) :: shaft
     logical, intent(out) :: regular
     real(wp), allocatable :: right(:, :)
     integer :: i
 
     shaft%held = place
-    shaft%sign = sign
     shaft%free = pack([(i, i=1, size(force))], [(all(place /= i), i=1, size(force))])
     associate (b => shaft%held, f => shaft%free, n => size(place))
       allocate (right(size(f), n + 1))
@@ -48,11 +45,10 @@ contains
       right(:, n + 1) = force(f)
       call solve_general(matrix(f, f), right, regular)
       if (.not. regular) return
-      shaft%follows = right(:, :n)*spread(sign, 1, size(f))
+      shaft%follows = right(:, :n)
       shaft%rest = right(:, n + 1)
       shaft%stiffness = matrix(b, b) + matmul(matrix(b, f), right(:, :n))
-      shaft%stiffness = shaft%stiffness*spread(sign, 1, n)*spread(sign, 2, n)
-      shaft%force = sign*(force(b) - matmul(matrix(b, f), right(:, n + 1)))
+      shaft%force = force(b) - matmul(matrix(b, f), right(:, n + 1))
     end associate
   end subroutine hold_shaft
 
@@ -62,7 +58,7 @@ contains
     real(wp), intent(in) :: motion(:) !! a, of the journals [m], [rad]
     real(wp) :: all_motions(size(shaft%held) + size(shaft%free)) !! q [m], [1]
 
-    all_motions(shaft%held) = shaft%sign*motion
+    all_motions(shaft%held) = motion
     all_motions(shaft%free) = shaft%rest + matmul(shaft%follows, motion)
   end function free_motions
 end module gfb_held_shaft

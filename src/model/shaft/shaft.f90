@@ -182,9 +182,10 @@ contains
   end function body
 
   !> Bending moment and shear force at both ends of each element, in one plane.
-  pure function bending(self, motion) result(force)
+  pure function bending(self, motion, acceleration) result(force)
     class(shaft_type), intent(in) :: self !! the shaft
     real(wp), intent(in) :: motion(:) !! of that plane [m], [1]
+    real(wp), intent(in) :: acceleration !! of free fall in it [m/s2]
     !> (moment and shear, first and second end, element) [N m], [N]
     real(wp), allocatable :: force(:, :, :)
     integer :: i
@@ -193,8 +194,7 @@ contains
     do i = 1, size(self%section)
       associate (ends => motion(2*i - 1:2*i - 2 + element_size), &
                  length => self%z(i + 1) - self%z(i))
-        force(:, 1, i) = section_forces(self%section(i), length, 0.0_wp, ends)
-        force(:, 2, i) = section_forces(self%section(i), length, 1.0_wp, ends)
+        force(:, :, i) = section_forces(self%section(i), length, ends, acceleration)
       end associate
     end do
   end function bending

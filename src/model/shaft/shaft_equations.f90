@@ -21,7 +21,7 @@ module gfb_shaft_equations
     real(wp), allocatable :: stiffness(:, :)   !! K
     real(wp), allocatable :: circulation(:, :) !! R, over the speed
   contains
-    procedure :: dynamic_stiffness, reduced
+    procedure :: dynamic_stiffness, reduced, add_motions
   end type shaft_equations_type
 
 contains
@@ -58,10 +58,40 @@ contains
              (rate**2*self%mass + rate*self%damping + self%stiffness)
   end function dynamic_stiffness
 
-  !> The same equations in few motions, \( q = V y \).
+  !> Puts further motions behind all others, each alone with its mass, damping and stiffness.
+  pure subroutine add_motions(self, mass, damping, stiffness)
+    class(shaft_equations_type), intent(inout) :: self !! the equations
+    real(wp), intent(in) :: mass(:)      !! one each [kg]
+    real(wp), intent(in) :: damping(:)   !! [N s/m]
+    real(wp), intent(in) :: stiffness(:) !! [N/m]
+
+    call extend(self%mass, mass)
+    call extend(self%gyroscopic, 0.0_wp*mass)
+    call extend(self%damping, damping)
+    call extend(self%stiffness, stiffness)
+    call extend(self%circulation, 0.0_wp*mass)
+  end subroutine add_motions
+
+  !> A matrix with more rows and columns, which are a diagonal.
+  pure subroutine extend(matrix, diagonal)
+    real(wp), allocatable, intent(inout) :: matrix(:, :)
+    real(wp), intent(in) :: diagonal(:)
+    real(wp), allocatable :: larger(:, :)
+    integer :: i, n
+
+    n = size(matrix, 1)
+    allocate (larger(n + size(diagonal), n + size(diagonal)), source=0.0_wp)
+    larger(:n, :n) = matrix
+    do i = 1, size(diagonal)
+      larger(n + i, n + i) = diagonal(i)
+    end do
+    call move_alloc(larger, matrix)
+  end subroutine extend
+
+  !> The same equations in few motions, or in others, \( q = V y \).
   pure function reduced(self, basis) result(small)
     class(shaft_equations_type), intent(in) :: self !! the equations
-    real(wp), intent(in) :: basis(:, :) !! V (motion, few motions)
+    real(wp), intent(in) :: basis(:, :) !! V (motion, new motion)
     type(shaft_equations_type) :: small
 
     small%mass = project(self%mass)

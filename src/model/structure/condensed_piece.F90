@@ -8,6 +8,7 @@ module gfb_condensed_piece
 
   !> A kind of condensed pieces, its first one, and where this rank's pieces of the kind stand.
   type, public :: condensed_piece_type
+    integer :: surface = 0                  !! of the foil's `surfaces`, that it is a piece of
     Mat :: stiffness, mass                  !! of all unknowns of the piece, on this rank alone
     logical, allocatable :: is_retained(:)  !! one an unknown
     integer, allocatable :: number(:, :)    !! (retained, pieces) foil's own numbers, from 1; 0: fixed

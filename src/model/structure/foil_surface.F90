@@ -6,10 +6,12 @@ module gfb_foil_surface
   use gfb_shell_geometry, only: shell_section_type
   implicit none (type, external)
   private
+  public :: named_surface
 
   !> A mid-surface and this rank's part of it; nodes and elements keep their numbers in the whole mesh.
   type, public :: foil_surface_type
     character(len=:), allocatable :: name    !! of its file: top_foil, bump_foil
+    logical :: lies_on_film = .false.        !! its nodes are those of the film's mesh
     logical :: has_contacts = .false.        !! slaves of the contacts are nodes of this surface
     type(quad_mesh_type) :: mesh             !! the stretch that holds this rank's columns, or more
     type(shell_section_type) :: section
@@ -32,6 +34,16 @@ module gfb_foil_surface
   end type surface_motion_type
 
 contains
+
+  !> Number of the surface of a name, which is also that of its group in a case file; 0: there is none.
+  pure integer function named_surface(surface, name) result(number)
+    type(foil_surface_type), intent(in) :: surface(:) !! of a foil
+    character(len=*), intent(in) :: name
+
+    do number = size(surface), 1, -1
+      if (surface(number)%name == name) exit
+    end do
+  end function named_surface
 
   !> Whether this rank owns a node.
   pure logical function owns(self, node) result(mine)

@@ -6,7 +6,6 @@ module gfb_foil_grid
   use gfb_contact_set, only: contact_set_type
   use gfb_foil_surface, only: foil_surface_type, surface_motion_type
   use gfb_quad_mesh, only: quad_mesh_type, solid_rows
-  use gfb_meshed_foil, only: top_surface
   use gfb_grid, only: result_grid_type, block_bounds, add_grid_field
   use gfb_text, only: text
   use gfb_film_mesh, only: film_mesh_type
@@ -251,7 +250,7 @@ contains
     if (size(surface) == 0) return
     behind = ''
     level = 0.0_wp ! a rank without a part of the foils writes none
-    associate (top => surface(top_surface)%mesh%position)
+    associate (top => surface(findloc(surface%lies_on_film, .true., dim=1))%mesh%position)
       if (size(top, 2) > 0) level = top(2, 1) ! it is flat
     end associate
     copies = bearing%mesh%repeats

@@ -26,7 +26,7 @@ contains
   !>
   !> Fails when a file cannot be written; older results are then as they were.
   subroutine write_result_set(scene, folder, converged, provenance, summary, history, arrays, grids, &
-                              csv, log, error, columns, series)
+                              csv, log, error, columns, series, parts)
     type(scene_type), intent(in) :: scene !! with its name and echo
     character(len=*), intent(in) :: folder !! where the files go
     logical, intent(in) :: converged !! it is an answer, not the last state reached
@@ -40,6 +40,7 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
     type(grid_series_type), intent(in), optional :: series !! surfaces at steps, a further file each
+    type(quantity_type), intent(in), optional :: parts(:) !! texts of further case files, by name
 
     character(len=:), allocatable :: stem, names, table
     type(result_file_type) :: file
@@ -54,7 +55,7 @@ contains
     if (present(series)) played = surfaces_of(series)
     allocate (files(size(grids) + played + merge(4, 3, csv%wanted .or. scene%sweep%present)))
     call write_case_file(stem//'.h5', PETSC_COMM_WORLD, this_rank() == 0, scene%verbatim, &
-                         scene%echo, provenance, summary, history, arrays, file, error, columns)
+                         scene%echo, provenance, summary, history, arrays, file, error, columns, parts)
     call share_failure(error)
     files(1) = file%written
     do i = 1, size(grids)

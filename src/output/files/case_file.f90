@@ -42,7 +42,7 @@ contains
   !>
   !> Fails when it cannot be written.
   subroutine write_case_file(path, communicator, first_rank, verbatim, echo, &
-                             provenance, summary, history, arrays, file, error, columns)
+                             provenance, summary, history, arrays, file, error, columns, parts)
     character(len=*), intent(in) :: path !! of the file, or of what is in it
     integer, intent(in) :: communicator !! MPI's
     logical, intent(in) :: first_rank !! this rank leads
@@ -55,12 +55,19 @@ contains
     type(result_file_type), intent(out) :: file !! the file being written
     type(error_type), allocatable, intent(out) :: error !! what went wrong, if anything did
     type(history_row_type), intent(in), optional :: columns(:) !! that a history without a row has
+    type(quantity_type), intent(in), optional :: parts(:) !! texts of further case files, by name
+    integer :: i
 
     call open_result_file(path, communicator, first_rank, file, error)
     if (allocated(error)) return
     call file%group('/scene')
     call file%put_text('/scene/case_file', verbatim, 'the case file as it was read')
     call file%put_text('/scene/used', echo, 'every key with the value used; it can be run again')
+    if (present(parts)) then
+      do i = 1, size(parts)
+        call file%put_text('/scene/'//parts(i)%name, parts(i)%word, parts(i)%meaning)
+      end do
+    end if
     call write_quantities(file, '/provenance', provenance)
     call write_quantities(file, '/summary', summary)
     call write_history(file, history, columns)

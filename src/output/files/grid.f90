@@ -1,7 +1,6 @@
-!> A surface of quadrilaterals with fields, each rank having a part of it.
+!> A surface of quadrilaterals, or a line, with fields, each rank having a part of it.
 !>
-!> A surface of quadrilaterals with fields as a VTKHDF unstructured grid, which ParaView opens as
-!> it is.
+!> It is written as a VTKHDF unstructured grid, which ParaView opens as it is.
 !>
 !> The grid is one piece with global numbers, whatever the ranks: each rank hands in consecutive
 !> points and cells.
@@ -16,6 +15,7 @@ module gfb_grid
 
   integer, parameter, public :: corners = 4                     !! of a cell
   integer(c_int8_t), parameter, public :: vtk_quad = 9_c_int8_t !! VTK's type of one
+  integer(c_int8_t), parameter :: vtk_line = 3_c_int8_t !! and of a piece of a line
   character(len=*), parameter, public :: grid_group = '/VTKHDF' !! of a file that VTK reads
 
   !> A field, of which each rank has consecutive entries.
@@ -29,19 +29,19 @@ module gfb_grid
     integer :: points = 0                !! of all ranks
     integer :: cells = 0                 !! of all ranks
     real(wp), allocatable :: point(:, :) !! (3, points of this rank) [m]
-    integer, allocatable :: cell(:, :)   !! (4, cells of this rank), points from 1
+    integer, allocatable :: cell(:, :)   !! (4, or 2 of a line, cells of this rank), points from 1
   end type grid_type
 
   !> A surface with its fields, `<case>.<name>.vtkhdf`.
   type, public :: result_grid_type
-    character(len=:), allocatable :: name !! film, top_foil or bump_foil
+    character(len=:), allocatable :: name !! film, top_foil, bump_foil or shaft
     type(grid_type) :: grid
     type(grid_field_type), allocatable :: point_field(:), cell_field(:)
   end type result_grid_type
 
   character(len=*), parameter :: group = grid_group
   character(len=*), parameter, public :: point_meaning = 'unrolled: x along the motion, '// &
-    'y towards the shaft, z along the axis; of thrust bearings x, y, z in space'
+    'y towards the shaft, z along the axis; of thrust bearings and shafts x, y, z in space'
 
 contains
 
@@ -149,24 +149,27 @@ contains
     type(grid_type), intent(in) :: grid
 
     integer(c_int8_t), allocatable :: types(:)
-    integer :: first, last, offsets_end, i
+    integer(c_int8_t) :: type
+    integer :: nodes, first, last, offsets_end, i
 
+    nodes = size(grid%cell, 1)
+    type = merge(vtk_quad, vtk_line, nodes == corners)
     call put_count(file, 'NumberOfPoints', grid%points, 'points of the only piece')
     call put_count(file, 'NumberOfCells', grid%cells, 'cells of the only piece')
-    call put_count(file, 'NumberOfConnectivityIds', corners*grid%cells, 'entries of Connectivity')
+    call put_count(file, 'NumberOfConnectivityIds', nodes*grid%cells, 'entries of Connectivity')
     call block_bounds(grid%points, rank, ranks, first, last)
     call file%put_block(group//'/Points', grid%point, first - 1, grid%points, 'm', &
                         point_meaning)
     call block_bounds(grid%cells, rank, ranks, first, last)
     call file%put_long_block(group//'/Connectivity', &
                              int(reshape(grid%cell, [size(grid%cell)]) - 1, long), &
-                             corners*(first - 1), corners*grid%cells, 'points of the cells, from 0')
-    allocate (types(size(grid%cell, 2)), source=vtk_quad)
+                             nodes*(first - 1), nodes*grid%cells, 'points of the cells, from 0')
+    allocate (types(size(grid%cell, 2)), source=type)
     call file%put_byte_block(group//'/Types', types, first - 1, grid%cells, &
-                             'VTK cell types, 9: quadrilateral')
+                             'VTK cell types, 9: quadrilateral, 3: line')
     offsets_end = merge(last + 1, last, rank == ranks - 1)
     call file%put_long_block(group//'/Offsets', &
-                             [(int(corners, long)*(i - 1), i=first, offsets_end)], &
+                             [(int(nodes, long)*(i - 1), i=first, offsets_end)], &
                              first - 1, grid%cells + 1, 'where each cell begins in Connectivity')
   end subroutine write_grid
 

@@ -100,13 +100,16 @@ module gfb_analysis_row
     number=10, word='periodic', has_film=.true., floats=.true., &
     groups=of_bearings//' periodic rotor unbalance foil_damping ')
 
-  character(len=*), parameter :: of_machines = ' shaft discs bearings loads machine sweep '
+  character(len=*), parameter :: of_machines = ' shaft discs bearings loads machine '
 
   !> Those of a machine; each is called as that of one bearing.
   type(analysis_row_type), parameter :: machine_rows(*) = [ &
-    analysis_row_type(number=1, word='equilibrium', is_machine=.true., groups=of_machines), &
+    analysis_row_type(number=1, word='equilibrium', is_machine=.true., &
+                      groups=of_machines//' sweep '), &
     analysis_row_type(number=5, word='linear_dynamics', is_machine=.true., &
-                      groups=of_machines//' dynamics unbalance ')]
+                      groups=of_machines//' sweep dynamics unbalance '), &
+    analysis_row_type(number=9, word='transient', is_machine=.true., &
+                      groups=of_machines//' transient unbalance ')]
 
   !> Each at the place of its number.
   type(analysis_row_type), parameter, public :: analysis_rows(*) = &

@@ -16,6 +16,7 @@ module gfb_machine_case
   integer, parameter :: most_bearings = 20
   real(wp), parameter :: most_elements = 100.0_wp !! of a segment [1]
   real(wp), parameter :: rounding = 1.0e-12_wp   !! of a length [1]
+  real(wp), parameter :: coldest = 150.0_wp, hottest = 2000.0_wp !! else a temperature is not in K
   real(wp), parameter :: standard_gravity = 9.81_wp !! [m/s^2]
 
   !> Where something stands along the shaft, and what acts there.
@@ -36,16 +37,29 @@ module gfb_machine_case
     character(len=longest_string), allocatable :: file(:) !! as they were typed
     real(wp), allocatable :: bearing_position(:) !! [m]
     real(wp), allocatable :: offset(:, :)        !! of the sleeves, (x and y, bearing) [m]
+    real(wp), allocatable :: axial_offset(:)     !! of them, along z [m]
     real(wp), allocatable :: misalignment(:, :)  !! about x and y [rad]
+    real(wp), allocatable :: facing(:)           !! 1: as in their files; -1: mirrored in z [1]
+    real(wp), allocatable :: support_mass(:)     !! of the sleeves [kg]
+    real(wp), allocatable :: support_stiffness(:, :) !! (x and y, bearing); 0: rigid [N/m]
+    real(wp), allocatable :: support_damping(:, :)   !! [N s/m]
     ! Loads.
     real(wp), allocatable :: load_position(:) !! [m]
     real(wp), allocatable :: force(:, :)      !! (x and y, load) [N]
     real(wp), allocatable :: moment(:, :)     !! about x and y [N m]
     ! The machine.
     real(wp) :: speed_rpm = 0.0_wp
+    real(wp) :: axial_load = 0.0_wp !! on the shaft, along -z [N]
+    logical :: axial_load_given = .false.
     real(wp) :: gravity(2) = [-standard_gravity, 0.0_wp] !! x and y [m/s^2]
     logical :: journal_tilts = .true. !! each film sees how its journal is tilted
     real(wp), allocatable :: station(:) !! where the shaft's place is asked for [m]
+    ! Heat along the shaft.
+    real(wp), allocatable :: shaft_conductivity(:) !! of segments, if it conducts [W/(m K)]
+    real(wp) :: shaft_end_conductance(2) = 0.0_wp  !! of the first and the last end [W/K]
+    real(wp) :: shaft_end_temperature(2) = 0.0_wp  !! beyond them [K]
+    real(wp) :: shaft_film_conductance = 0.0_wp    !! of the bare surface [W/(m^2 K)]
+    real(wp) :: shaft_film_temperature = 0.0_wp    !! around that [K]
   end type machine_case_type
 
 contains
@@ -122,8 +136,8 @@ contains
     integer :: n
 
     refused = unless(analysis%is_machine .or. .not. analysis%is_known(), 'has no use with '// &
-                     "analysis = '"//trim(analysis%word)//"': a machine has 'equilibrium' and "// &
-                     "'linear_dynamics'")
+                     "analysis = '"//trim(analysis%word)//"': a machine has 'equilibrium', "// &
+                     "'linear_dynamics' and 'transient'")
     call keys%start_group(machine_group, optional=.true., misplaced=refused)
     call keys%real_list_key('lengths', machine%length, longest_list, 'm', &
                             'lengths of the segments of the shaft, from its first end, z = 0, on', &
@@ -193,19 +207,21 @@ contains
   end subroutine read_values
 
   !> Values in the plane of x and in that of y, two keys.
-  subroutine read_planes(keys, count, name, values, unit, meaning, way)
+  subroutine read_planes(keys, count, name, values, unit, meaning, way, rule, default)
     type(case_keys_type), intent(inout) :: keys
     integer, intent(in) :: count !! of what has them
     character(len=*), intent(in) :: name !! of the keys, without their axes
     real(wp), allocatable, intent(out) :: values(:, :) !! (x and y, count) [their unit]
     character(len=*), intent(in) :: unit, meaning
     character(len=*), intent(in) :: way !! along or about the axes
+    type(rule_type), intent(in) :: rule
+    character(len=*), intent(in) :: default !! in words
     real(wp), allocatable :: x(:), y(:)
 
-    call read_values(keys, count, name//'_x', x, unit, meaning//', '//way//' x', any_value, &
-                     .false., '0')
-    call read_values(keys, count, name//'_y', y, unit, 'the same '//way//' y', any_value, &
-                     .false., '0')
+    call read_values(keys, count, name//'_x', x, unit, meaning//', '//way//' x', rule, .false., &
+                     default)
+    call read_values(keys, count, name//'_y', y, unit, 'the same '//way//' y', rule, .false., &
+                     default)
     values = transpose(reshape([x, y], [count, 2]))
   end subroutine read_planes
 
@@ -261,10 +277,46 @@ contains
                    'must have one value a file: '//text(n)//', not '// &
                    text(size(machine%bearing_position)))
     call read_planes(keys, n, 'offset', machine%offset, 'm', 'how far each sleeve stands off '// &
-                     'the line of the machine', 'along')
+                     'the line of the machine', 'along', any_value, '0')
+    call read_values(keys, n, 'offset_z', machine%axial_offset, 'm', 'how far the pads of each '// &
+                     'thrust bearing stand off their place along z: two that face each other '// &
+                     'have their play by it', any_value, .false., '0')
     call read_planes(keys, n, 'misalignment', machine%misalignment, 'rad', 'how each sleeve is '// &
-                     'turned out of the line of the machine', 'about')
+                     'turned out of the line of the machine', 'about', any_value, '0')
+    call read_values(keys, n, 'facing', machine%facing, '1', 'which way the pads of each '// &
+                     'thrust bearing face: 1 along +z, as in its file, -1 along -z, as its '// &
+                     'mirror image', any_value, .false., '1')
+    where (.not. abs(machine%facing) > 0.0_wp) machine%facing = 1.0_wp
+    call keys%rule(group, 'facing', any(abs(abs(machine%facing) - 1.0_wp) > rounding), &
+                   'must be 1 or -1')
+    call read_supports(keys, machine, n, group)
   end subroutine read_bearings
+
+  !> What holds the sleeves.
+  subroutine read_supports(keys, machine, count, group)
+    type(case_keys_type), intent(inout) :: keys
+    type(machine_case_type), intent(inout) :: machine
+    integer, intent(in) :: count !! of bearings
+    character(len=*), intent(in) :: group
+    logical :: springs(count)
+
+    call read_values(keys, count, 'support_mass', machine%support_mass, 'kg', 'mass of each '// &
+                     'sleeve on its support', not_negative, .false., '0')
+    call read_planes(keys, count, 'support_stiffness', machine%support_stiffness, 'N/m', &
+                     'stiffness of the support between each sleeve and the base', 'along', &
+                     not_negative, '0: a rigid support')
+    call read_planes(keys, count, 'support_damping', machine%support_damping, 'N s/m', &
+                     'damping of the support', 'along', not_negative, '0')
+    springs = all(machine%support_stiffness > 0.0_wp, 1)
+    call keys%rule(group, 'support_stiffness_y', any(machine%support_stiffness(1, :) > 0.0_wp &
+                   .neqv. springs), 'must be given where support_stiffness_x is')
+    call keys%rule(group, 'support_stiffness_x', any(machine%support_stiffness(2, :) > 0.0_wp &
+                   .neqv. springs), 'must be given where support_stiffness_y is')
+    call keys%rule(group, 'support_mass', any(machine%support_mass > 0.0_wp .and. .not. springs), &
+                   'needs support_stiffness_x and support_stiffness_y')
+    call keys%rule(group, 'support_damping_x', any(any(machine%support_damping > 0.0_wp, 1) .and. &
+                   .not. springs), 'needs support_stiffness_x and support_stiffness_y')
+  end subroutine read_supports
 
   !> `&loads`.
   subroutine read_loads(keys, machine, analysis)
@@ -280,9 +332,10 @@ contains
                             'forces and moments act on the shaft, from its first end', &
                             not_negative, given .and. machine%present)
     n = size(machine%load_position)
-    call read_planes(keys, n, 'forces', machine%force, 'N', 'force of each on the shaft', 'along')
+    call read_planes(keys, n, 'forces', machine%force, 'N', 'force of each on the shaft', 'along', &
+                     any_value, '0')
     call read_planes(keys, n, 'moments', machine%moment, 'N m', 'moment of each on the shaft', &
-                     'about')
+                     'about', any_value, '0')
   end subroutine read_loads
 
   !> `&machine`.
@@ -298,11 +351,55 @@ contains
     if (machine%speed_rpm < 0.0_wp) call keys%complain('machine', 'speed_rpm', other_sense)
     call keys%real_vector_key('gravity', machine%gravity, 'm/s^2', 'acceleration of free fall, '// &
                               'x and y')
+    call keys%real_key('axial_load', machine%axial_load, 'N', 'force on the shaft along -z, '// &
+                       'which thrust bearings carry; that which presses it on pads that face +z', &
+                       any_value, default='required with a thrust bearing', &
+                       given=machine%axial_load_given)
     call keys%logical_key('journal_tilts', machine%journal_tilts, 'each film sees how its '// &
                           'journal is tilted in its sleeve; else journals count as parallel, '// &
                           'and carry no moment')
     call keys%real_list_key('stations', machine%station, longest_list, 'm', 'further places '// &
                             'along the shaft at which results are asked for', not_negative, &
                             .false., 'none: bearings and discs')
+    call read_shaft_heat(keys, machine)
   end subroutine read_operation
+
+  !> How the shaft conducts heat; without conductivity each bearing's file says it for itself.
+  subroutine read_shaft_heat(keys, machine)
+    type(case_keys_type), intent(inout) :: keys
+    type(machine_case_type), intent(inout) :: machine
+    character(len=*), parameter :: group = 'machine', conductivity = 'shaft_conductivity'
+    character(len=*), parameter :: others(*) = [character(len=22) :: 'shaft_end_conductance', &
+      'shaft_end_temperature', 'shaft_film_conductance', 'shaft_film_temperature']
+    logical :: ends, conducts
+    integer :: i
+
+    conducts = keys%holds(group, conductivity)
+    call read_values(keys, size(machine%length), conductivity, machine%shaft_conductivity, &
+                     'W/(m K)', 'conductivity of each segment of the shaft, or of all, along '// &
+                     'which the heat of all bearings flows', positive, .false., &
+                     'each bearing''s file has a shaft of its own')
+    if (.not. conducts) machine%shaft_conductivity = machine%shaft_conductivity(:0)
+    call keys%real_vector_key('shaft_end_conductance', machine%shaft_end_conductance, 'W/K', &
+                              'from the first and the last end of the shaft to far places; 0: '// &
+                              'insulated', not_negative)
+    call keys%real_vector_key('shaft_end_temperature', machine%shaft_end_temperature, 'K', &
+                              'temperatures of these places', from_to(coldest, hottest), &
+                              default='required with shaft_end_conductance', given=ends)
+    call keys%real_key('shaft_film_conductance', machine%shaft_film_conductance, 'W/(m^2 K)', &
+                       'from the surface of the shaft, where no bearing is around it, to what '// &
+                       'is around it', not_negative)
+    call keys%real_key('shaft_film_temperature', machine%shaft_film_temperature, 'K', &
+                       'temperature of that', from_to(coldest, hottest), &
+                       default='required with shaft_film_conductance')
+    do i = 1, size(others)
+      call keys%rule(group, trim(others(i)), .not. conducts .and. &
+                     keys%holds(group, trim(others(i))), 'needs shaft_conductivity')
+    end do
+    call keys%rule(group, 'shaft_end_temperature', any(machine%shaft_end_conductance > 0.0_wp) &
+                   .and. .not. ends, 'is required with shaft_end_conductance')
+    call keys%rule(group, 'shaft_film_temperature', machine%shaft_film_conductance > 0.0_wp .and. &
+                   .not. machine%shaft_film_temperature > 0.0_wp, &
+                   'is required with shaft_film_conductance')
+  end subroutine read_shaft_heat
 end module gfb_machine_case

@@ -19,6 +19,9 @@ module gfb_motion_cases
 
   character(len=*), parameter :: needs_dynamics = "it needs analysis = 'linear_dynamics'"
 
+  character(len=*), parameter :: no_use_of_machine = 'has no use beside &shaft: it is of one '// &
+                                 'bearing'
+
   integer, parameter, public :: mass_auto = 1 !! the foil has its mass where it counts
   integer, parameter, public :: mass_on = 2   !! it has it
   integer, parameter, public :: mass_off = 3  !! it has none
@@ -116,6 +119,9 @@ module gfb_motion_cases
     real(wp) :: ramp_time = 0.0_wp         !! in which it is reached; 0: the whole time [s]
     real(wp) :: pulse(2) = 0.0_wp          !! [N s]
     real(wp) :: couple_pulse(2) = 0.0_wp   !! [N m s]
+    real(wp) :: pulse_position = -1.0_wp   !! on a machine's shaft; < 0: its centre of mass [m]
+    real(wp) :: start_gravity(2) = 0.0_wp  !! in whose equilibrium a machine begins [m/s^2]
+    logical :: start_gravity_given = .false. !! else that of `&machine`
     real(wp) :: pulse_start = 0.0_wp       !! [s]
     real(wp) :: pulse_length = 0.0_wp      !! [s]
     real(wp), allocatable :: base_time(:)           !! [s]
@@ -374,6 +380,7 @@ contains
     type(transient_case_type), intent(out) :: transient !! what `&transient` asks for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     type(analysis_row_type), intent(in) :: analysis !! of the case file
+    character(len=:), allocatable :: of_bearing
 
     transient%present = analysis%takes('transient')
     call keys%start_group('transient', required=transient%present, &
@@ -389,12 +396,14 @@ contains
     call keys%real_key('time_tolerance', transient%time_tolerance, '1', &
                        'error of a step in the position of the shaft, over the clearance, '// &
                        'where it chooses the steps', positive)
-    call read_drive(keys, transient, operation)
+    call read_drive(keys, transient, operation, analysis%is_machine)
+    of_bearing = unless(.not. analysis%is_machine, no_use_of_machine)
     call keys%real_key('orbit_radius', transient%orbit_radius, 'm', &
                        'radius of the circle on which a sleeve moves whose eccentricity is '// &
-                       'given: it begins at +x from there', not_negative)
+                       'given: it begins at +x from there', not_negative, useless=of_bearing)
     call keys%real_key('orbit_frequency', transient%orbit_frequency, 'rad/s', &
-                       'circular frequency of that motion, with the shaft''s sense', any_value)
+                       'circular frequency of that motion, with the shaft''s sense', any_value, &
+                       useless=of_bearing)
     call keys%integer_key('output_every', transient%output_every, &
                           'steps from one line of the history to the next', positive)
     call keys%real_key('field_interval', transient%field_interval, 's', &
@@ -413,29 +422,45 @@ contains
   end subroutine read_transient_case
 
   !> What drives the shaft.
-  subroutine read_drive(keys, transient, operation)
+  subroutine read_drive(keys, transient, operation, is_machine)
     type(case_keys_type), intent(inout) :: keys
     type(transient_case_type), intent(inout) :: transient
     type(operation_case_type), intent(in) :: operation
+    logical, intent(in) :: is_machine !! a shaft in several bearings
+    character(len=:), allocatable :: of_bearing, of_machine
 
+    of_bearing = unless(.not. is_machine, no_use_of_machine)
+    of_machine = unless(is_machine, 'needs &shaft: it is of a machine')
     transient%start_load = operation%load
     call keys%real_vector_key('start_load', transient%start_load, 'N', &
                               'load whose equilibrium the shaft begins with, x and y; from '// &
                               'then on it bears the load of &operation', &
-                              default='load of &operation', given=transient%start_load_given)
+                              default='load of &operation', given=transient%start_load_given, &
+                              useless=of_bearing)
+    call keys%real_vector_key('start_gravity', transient%start_gravity, 'm/s^2', &
+                              'of a machine: acceleration of free fall, x and y, in whose '// &
+                              'equilibrium the shaft begins; from then on that of &machine '// &
+                              'acts: 0, 0 drops it from the middle of its sleeves', &
+                              default='gravity of &machine', &
+                              given=transient%start_gravity_given, useless=of_machine)
     transient%final_speed_rpm = operation%speed_rpm
     call keys%real_key('final_speed_rpm', transient%final_speed_rpm, 'rpm', &
-                       'speed to which the shaft runs up, or down, from that of &operation', &
-                       not_negative, default='speed of &operation', given=transient%speed_changes)
+                       'speed to which the shaft runs up, or down, from that of &operation '// &
+                       'or &machine', not_negative, default='that speed', &
+                       given=transient%speed_changes)
     call keys%real_key('ramp_time', transient%ramp_time, 's', &
                        'time in which it reaches that speed, evenly', positive, &
                        default='the whole time')
     call keys%real_vector_key('pulse', transient%pulse, 'N s', &
                               'push on the shaft, force times time, x and y: a smooth one; on '// &
-                              'two bearings what each of them carries')
+                              'two bearings what each of them carries, of a machine the whole')
     call keys%real_vector_key('couple_pulse', transient%couple_pulse, 'N m s', &
                               'turn of a rotor that tilts on two bearings, torque times time '// &
-                              'about x and y, while the push takes')
+                              'about x and y, while the push takes; of a machine at '// &
+                              '`pulse_position`')
+    call keys%real_key('pulse_position', transient%pulse_position, 'm', 'where on the shaft of '// &
+                       'a machine the push acts, from its first end', not_negative, &
+                       default='its centre of mass', useless=of_machine)
     call keys%real_key('pulse_start', transient%pulse_start, 's', 'when it begins', not_negative)
     call keys%real_key('pulse_length', transient%pulse_length, 's', 'how long it takes', positive, &
                        default='required with `pulse` and `couple_pulse`')

@@ -6,7 +6,8 @@ module gfb_operation_case
   use gfb_case_keys, only: case_keys_type, no_default, any_value, positive, unless
   use gfb_text, only: text
   use gfb_analysis_row, only: analysis_row_type
-  use gfb_key_effect, only: acts_on_point
+  use gfb_key_effect, only: acts_on_point, acts_on_speed, acts_on_load, acts_on_axial_load, &
+                            acts_on_axial_gap
   implicit none (type, external)
   private
   public :: operation_case_type, read_operation_case, angular_speed, size_of_gap
@@ -64,7 +65,7 @@ contains
                           optional=analysis%is_structure(), &
                           misplaced=analysis%refusal('operation'), acts_on=acts_on_point)
     call keys%real_key('speed_rpm', operation%speed_rpm, 'rpm', 'speed of the shaft', &
-                       any_value, analysis%has_film)
+                       any_value, analysis%has_film, acts_on=acts_on_speed)
     if (operation%speed_rpm < 0.0_wp) call keys%complain('operation', 'speed_rpm', other_sense)
     call keys%rule('operation', 'speed_rpm', analysis%floats .and. &
                    keys%last_key_is_right() .and. .not. (operation%speed_rpm > 0.0_wp .or. &
@@ -74,6 +75,7 @@ contains
                               required=analysis%floats .and. bearing%row%moves_across, &
                               default='required for an equilibrium', given=operation%load_given, &
                               useless=journal)
+    call keys%act_on('load', acts_on_load)
     call keys%real_vector_key('eccentricity', operation%eccentricity, 'm', &
                               'position of the sleeve relative to the shaft, x and y: fixed, '// &
                               'or where the search for an equilibrium starts', &
@@ -90,13 +92,13 @@ contains
                        'of a thrust bearing on its pads, or the shaft into its cone, along -z', &
                        merge(any_value, positive, bearing%play > 0.0_wp), &
                        bearing%row%moves_along .and. analysis%floats, default=no_default, &
-                       useless=trim(bearing%row%axial_keys))
+                       useless=trim(bearing%row%axial_keys), acts_on=acts_on_axial_load)
     call keys%idle(unless(analysis%holds, 'the search for the equilibrium starts there'))
     call keys%real_key('axial_gap', operation%axial_gap, 'm', 'gap from the land of its pads '// &
                        'to its runner, on the axis, foils at rest: held, or where the search '// &
                        'for an equilibrium starts', positive, &
                        bearing%row%has_sectors .and. analysis%holds, default=no_default, &
-                       given=operation%axial_gap_given, useless=thrust)
+                       given=operation%axial_gap_given, useless=thrust, acts_on=acts_on_axial_gap)
     call keys%rule('operation', 'axial_gap', bearing%play > 0.0_wp .and. &
                    operation%axial_gap >= bearing%play, 'must be less than axial_play in '// &
                    '&bearing, '//text(bearing%play)//' m')

@@ -3,7 +3,7 @@
 module gfb_study_cases
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, from_to, at_least, between, not_negative, positive, &
-                           unless
+                           unless, no_default
   use gfb_analysis_row, only: analysis_row_type, limit_speed, limit_tilt
   use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, strip
@@ -163,6 +163,9 @@ module gfb_study_cases
   type :: capacity_case_type
     integer :: limit = 0                 !! `limit_load`, `limit_speed` or `limit_tilt`; 0: none is
     real(wp) :: smallest_gap = 0.0_wp    !! that the film may have; 0: none is given [m]
+    !> that film and top foil may have; 0: none is given [K]
+    real(wp) :: highest_temperature = 0.0_wp
+    real(wp) :: largest_stress = 0.0_wp !! that foils may have; 0: none is given [Pa]
     real(wp) :: contact_part = 1.0e-2_wp !! of the load that asperities may carry [1]
     integer :: tilt_axis = 1             !! about which the shaft tilts: 1 x, 2 y
   end type capacity_case_type
@@ -344,6 +347,13 @@ contains
                        '`film_margin` and the verdict say how far the film keeps it', positive, &
                        required=by_gap, &
                        default="required for 'load_capacity' and 'misalignment_allowance'")
+    call keys%idle('the answer is measured against it, and does not follow it')
+    call keys%real_key('highest_temperature', capacity%highest_temperature, 'K', 'that film '// &
+                       'and top foil may have: `temperature_margin` and the verdict say how '// &
+                       'far the hottest place of both keeps it', positive, default=no_default)
+    call keys%real_key('largest_stress', capacity%largest_stress, 'Pa', 'that the foils may '// &
+                       'have: `stress_margin` and the verdict say how far the largest von '// &
+                       'Mises stress keeps it', positive, default=no_default)
     call keys%idle(unless(capacity%limit > 0, 'no limit is looked for'))
     call keys%real_key('contact_part', capacity%contact_part, '1', &
                        'part of the load that asperities carry at the lift-off speed', &

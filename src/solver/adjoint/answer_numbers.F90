@@ -13,9 +13,8 @@ module gfb_answer_numbers
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   use gfb_bearing, only: bearing_type
-  use gfb_bearing_heat, only: moduli_at
+  use gfb_bearing_heat, only: moduli_at, softens_with_sleeve
   use gfb_heat_numbers, only: heat_numbers
-  use gfb_meshed_foil, only: bump_surface
   use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress, stress_at, add_stress_rates
   implicit none (type)
   private
@@ -381,7 +380,7 @@ contains
           associate (slope => rate(k)*stress_at(pad%foil, place(k:k), own), mean => heat%place_of_mean(pad%number), &
                      sleeve => heat%place_of_sleeve())
             gradient(mean, k) = gradient(mean, k) + slope(1)
-            if (k == bump_surface) gradient(sleeve, k) = gradient(sleeve, k) + slope(1)
+            if (softens_with_sleeve(k)) gradient(sleeve, k) = gradient(sleeve, k) + slope(1)
           end associate
         end associate
       end associate

@@ -7,7 +7,8 @@ module gfb_key_differences
   use gfb_operation_case, only: angular_speed
   use gfb_film_surface, only: translations, axial_coordinate
   use gfb_operating_point, only: operating_point_type
-  use gfb_key_effect, only: acts_on_point, acts_on_film, acts_on_contacts, acts_on_gaps, &
+  use gfb_key_effect, only: moves_point, acts_on_speed, acts_on_load, acts_on_axial_load, &
+                            acts_on_axial_gap, acts_on_film, acts_on_contacts, acts_on_gaps, &
                             acts_on_sheets, acts_on_shapes
   implicit none (type, external)
   private
@@ -46,8 +47,9 @@ contains
     type(difference_type) :: difference
     real(wp), parameter :: large = 5.0e-4_wp
 
+    if (moves_point(key%acts_on)) difference = difference_type(small, central)
     select case (key%acts_on)
-    case (acts_on_point, acts_on_film, acts_on_contacts)
+    case (acts_on_film, acts_on_contacts)
       difference = difference_type(small, central)
     case (acts_on_gaps)
       difference = difference_type(0.01_wp, forward)
@@ -78,23 +80,22 @@ contains
     integer :: i
 
     value = parameter%value
-    if (parameter%key%acts_on == acts_on_point) then
-      select case (parameter%key%name)
-      case ('load')
-        value = norm2(point%load(:translations))
-      case ('axial_load')
-        value = -point%load(axial_coordinate)
-      case ('axial_gap')
-        value = -point%place(axial_coordinate)
-      case default
-        value = point%speed/angular_speed(1.0_wp)
-      end select
-    else if (present(at) .and. allocated(scene%sweep%keys)) then
+    select case (parameter%key%acts_on)
+    case (acts_on_speed)
+      value = point%speed/angular_speed(1.0_wp)
+    case (acts_on_load)
+      value = norm2(point%load(:translations))
+    case (acts_on_axial_load)
+      value = -point%load(axial_coordinate)
+    case (acts_on_axial_gap)
+      value = -point%place(axial_coordinate)
+    case default
+      if (.not. present(at) .or. .not. allocated(scene%sweep%keys)) return
       list = swept_keys(scene%sweep)
       do i = 1, size(list)
         if (list(i)%label() == parameter%key%label()) value = at
       end do
-    end if
+    end select
   end function present_value
 
   !> By how much a key is changed [its unit]; 0 where it has no size.
@@ -115,15 +116,17 @@ contains
     type(operating_point_type), intent(in) :: point !! of the answer
 
     there = point
-    select case (parameter%key%name)
-    case ('load')
+    select case (parameter%key%acts_on)
+    case (acts_on_speed)
+      there%speed = angular_speed(value)
+    case (acts_on_load)
       there%load(:translations) = point%load(:translations)*(value/norm2(point%load(:translations)))
-    case ('axial_load')
+    case (acts_on_axial_load)
       there%load(axial_coordinate) = -value
-    case ('axial_gap')
+    case (acts_on_axial_gap)
       there%place(axial_coordinate) = -value
     case default
-      there%speed = angular_speed(value)
+      return ! other keys of the point are lists, by which nothing is derived
     end select
   end function changed_point
 

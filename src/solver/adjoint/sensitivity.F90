@@ -21,11 +21,11 @@ module gfb_sensitivity
   use gfb_operating_point, only: operating_point_type
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_foil_surface, only: nodal_values_type
-  use gfb_meshed_foil, only: split_motion, top_surface, bump_surface
+  use gfb_foil_surface, only: nodal_values_type, named_surface
+  use gfb_meshed_foil, only: split_motion
   use gfb_newton, only: newton_type
   use gfb_corrected_solve, only: solve_corrected
-  use gfb_key_effect, only: acts_on_point, acts_on_film
+  use gfb_key_effect, only: moves_point, acts_on_film
   use gfb_key_differences, only: difference_type, difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils
   use gfb_answer_numbers, only: extreme_nodes_type, known_answer_type, find_extremes, measure, measure_gradient, numbers, &
                                 numbers_of, place_e, place_force, place_torque, place_speed, place_extremes
@@ -283,7 +283,7 @@ contains
     work = 0.0_wp
     problem = ''
     valid = .true.
-    if (parameter%key%acts_on == acts_on_point) then
+    if (moves_point(parameter%key%acts_on)) then
       call evaluate_operation(parameter, value, bearing, answer, residual, number, valid)
     else
       call scene_with_key(scene, parameter%key, value, there, error, at)
@@ -340,7 +340,7 @@ contains
     if (key%acts_on == acts_on_film .or. any(bearing%block%numbers > 0)) number = measure(bearing, answer%unknown, bearing%point, answer%nodes)
     call take_numbers(scene, bearing)
     if (.not. changes_foils(key)) return
-    surface = merge(bump_surface, top_surface, key%group == 'bump_foil')
+    surface = named_surface(bearing%foil_surfaces(), key%group)
     do i = 1, size(answer%motion, 2)
       associate (pad => bearing%pad(i))
         call elastic_work(pad%foil, there, pad%whole, surface, answer%motion(surface, i)%moved, of_pad, error)

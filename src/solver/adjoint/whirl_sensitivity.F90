@@ -43,7 +43,7 @@ module gfb_whirl_sensitivity
   use gfb_whirl, only: whirl_type
   use gfb_planar_eigenvalues, only: whirl_rates
   use gfb_corrected_solve, only: solve_corrected
-  use gfb_key_effect, only: acts_on_point
+  use gfb_key_effect, only: moves_point
   use gfb_key_differences, only: difference_type, vibration_difference_of, present_value, step_of, changed_point, keeps_meshes, changes_foils, by_answer
   implicit none (type)
   private
@@ -432,7 +432,7 @@ contains
     logical :: moved
 
     matrix = 0.0_wp
-    if (parameter%key%acts_on == acts_on_point) then
+    if (moves_point(parameter%key%acts_on)) then
       before = bearing%point
       bearing%point = changed_point(parameter, value, before)
       call evaluate(scene, bearing)

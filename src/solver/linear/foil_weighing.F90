@@ -3,6 +3,10 @@
 !>
 !> Whether it counts is seen by the lowest natural frequency of the foil alone, its contacts as
 !> they are: next to it and beyond nothing may be left out. A free edge that is lifted has a low one.
+!>
+!> It is no hook of the momentum block. Such hooks add to a step of time or to a vibration of the bearing as it is; here it is found out,
+!> once and before any of them, whether there is such a block: by an eigenvalue problem on the assembled matrix at rest, contacts and
+!> softness in it, which every other block has to have been in already.
 module gfb_foil_weighing
   use slepceps
   use petscksp
@@ -14,7 +18,6 @@ module gfb_foil_weighing
   use gfb_craig_bampton, only: craig_bampton_type, reduce_matrices
   use gfb_condensed_piece, only: condensed_piece_type, destroy_pieces
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_meshed_foil, only: bump_surface
   use gfb_film_rates, only: fill_from_foil
   use gfb_inner_motion, only: inner_modes_type
   use gfb_foil_inertia, only: foil_inertia_type
@@ -96,18 +99,21 @@ contains
     end if
   end subroutine create_inertia
 
-  !> Modes inside pieces of bumps whose modulus is not that they were built with: each pad has its own.
-  subroutine soften_modes(bearing, pieces, inertia)
+  !> Modes inside pieces whose modulus is not that they were built with: each pad has its own.
+  subroutine soften_modes(bearing, surface, pieces, inertia)
     type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: surface(:) !! of the foil, one a kind of pieces
     integer, intent(in) :: pieces !! of a pad, of all kinds and ranks
     type(foil_inertia_type), intent(inout) :: inertia
     type(inner_modes_type), allocatable :: of_all(:)
     integer, allocatable :: mine(:)
     integer :: i, k, pad, pads
-    real(wp) :: modulus(size(bearing%pad))
+    real(wp) :: modulus(size(bearing%pad), size(surface))
 
     pads = size(bearing%pad)
-    modulus = [(bearing%pad(pad)%foil%modulus(bump_surface), pad=1, pads)]
+    do pad = 1, pads
+      modulus(pad, :) = bearing%pad(pad)%foil%modulus(surface)
+    end do
     if (.not. any(abs(modulus - 1.0_wp) > 0.0_wp)) return
     call move_alloc(inertia%inner, of_all)
     allocate (inertia%inner(size(of_all)*pads))
@@ -118,7 +124,7 @@ contains
           one%number = of_all(i)%number(:, mine)
           one%place = of_all(i)%place(mine)
           one%coupling = of_all(i)%coupling
-          one%eigenvalue = modulus(pad)*of_all(i)%eigenvalue
+          one%eigenvalue = modulus(pad, i)*of_all(i)%eigenvalue
         end associate
       end do
     end do
@@ -151,7 +157,7 @@ contains
       call reduce_piece(bearing, piece(i), pieces, modes, inertia%left_out, inertia%inner(i), of_foil)
     end do
     call destroy_pieces(piece)
-    call soften_modes(bearing, pieces, inertia)
+    call soften_modes(bearing, piece%surface, pieces, inertia)
     PetscCallA(MatAssemblyBegin(of_foil, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatAssemblyEnd(of_foil, MAT_FINAL_ASSEMBLY, ierr))
     PetscCallA(MatDuplicate(pattern, MAT_DO_NOT_COPY_VALUES, inertia%mass, ierr))

@@ -9,7 +9,6 @@
 module gfb_machine_count
   use gfb_kinds, only: wp
   use gfb_linear_solve, only: determinant_logarithm
-  use gfb_shaft, only: motions
   use gfb_dynamic_response, only: find_coefficients
   use gfb_zero_count, only: mode_count_type, circle_between
   use gfb_counted_function, only: counted_function_type, count_missing
@@ -24,6 +23,7 @@ module gfb_machine_count
   real(wp), parameter :: shift = 1.0_wp        !! the circle's centre, over the highest frequency [1]
   real(wp), parameter :: depth = 0.2_wp        !! loss of modes that it holds up to that frequency, over it [1]
   real(wp), parameter :: away(2) = [3.0_wp, 6.0_wp] !! from relaxing springs, over the radius in which their rates lie [1]
+  integer, parameter :: ways = 2               !! translations of a journal across its axis
   integer, parameter :: first_steps = 8        !! of the half circle, before the phase asks for more
   real(wp), parameter :: room = 1.15_wp        !! of the largest circle over the least [1]
 
@@ -83,7 +83,7 @@ contains
     found = .true.
     do i = 1, size(linear)
       call skip_inner_modes(linear(i)%response, .true.)
-      if (found) call add_relaxing(linear(i), machine%count < motions, divided, found)
+      if (found) call add_relaxing(linear(i), moves_across(machine, i), divided, found)
     end do
     count = mode_count_type(centre, radius, divided, first_steps, compares=.true.)
     determinant = machine_determinant_type(machine, linear)
@@ -101,7 +101,7 @@ contains
     complex(wp), allocatable, intent(inout) :: divided(:) !! rates that are divided out [1/s]
     logical, intent(out) :: found !! the matrices could be factorized
     type(relaxation_type) :: relaxation
-    complex(wp) :: coefficient(motions, motions), logarithm(2)
+    complex(wp) :: coefficient(size(linear%response%motion), size(linear%response%motion)), logarithm(2)
     integer :: i
 
     found = .true.
@@ -117,6 +117,13 @@ contains
     divided = [divided, (cmplx(relaxation%rate, 0.0_wp, wp), i=1, nint(real(logarithm(2) - logarithm(1), wp)/log(away(2)/away(1))))]
   end subroutine add_relaxing
 
+  !> Whether a journal's film feels how it moves across its axis alone, without tilts.
+  pure logical function moves_across(machine, number)
+    type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the journal
+    moves_across = all(machine%journal(number)%coordinate <= ways)
+  end function moves_across
+
   !> Logarithm of the determinant at a rate.
   subroutine evaluate_determinant(self, rate, logarithm, found)
     class(machine_determinant_type), intent(inout) :: self !! the function
@@ -131,7 +138,7 @@ contains
     if (.not. found) return
     logarithm = determinant_logarithm(matrix)
     do i = 1, size(self%linear)
-      call film_determinant(self%linear(i)%response, self%machine%count < motions, logarithm)
+      call film_determinant(self%linear(i)%response, moves_across(self%machine, i), logarithm)
     end do
   end subroutine evaluate_determinant
 end module gfb_machine_count

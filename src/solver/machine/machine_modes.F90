@@ -13,6 +13,7 @@ module gfb_machine_modes
   use gfb_sorting, only: sort_by
   use gfb_linear_solve, only: solve_general, solve_both_sides
   use gfb_machine, only: machine_type
+  use gfb_moving_sleeves, only: true_motions
   use gfb_frequency_response, only: cover_frequencies, add_sample
   use gfb_machine_linear, only: linear_bearing_type, machine_matrix, machine_slope
   use gfb_machine_starts, only: machine_mode_type, find_starts
@@ -185,7 +186,7 @@ contains
     logical :: found
     integer :: i
 
-    pushed = matmul(machine%equations%mass, mode%shape)
+    pushed = matmul(machine%equations%mass, mode%motion)
     here = mode%rate
     before = here
     at_before = 0.0_wp
@@ -223,7 +224,25 @@ contains
     call solve_general(matrix, motion, mode%sharp)
     mode%rate = here + move
     if (abs(aimag(mode%rate)) <= tolerance*abs(mode%rate)) mode%rate = real(mode%rate, wp)
-    i = maxloc(abs(motion(::2)), 1)
-    mode%shape = motion/motion(2*i - 1)
+    call take_shape(machine, motion, mode)
   end subroutine sharpen
+
+  !> The shape of a mode, in which the largest displacement is 1.
+  pure subroutine take_shape(machine, motion, mode)
+    type(machine_type), intent(in) :: machine
+    complex(wp), intent(in) :: motion(:) !! of all that moves
+    type(machine_mode_type), intent(inout) :: mode
+    complex(wp) :: true(size(motion)), largest
+
+    true = true_motions(machine%sleeve, motion)
+    associate (n => machine%shaft%coordinates(), i => machine%along)
+      largest = true(2*maxloc(abs(true(:n:2)), 1) - 1)
+      if (i > 0) then
+        if (abs(true(i)) > abs(largest)) largest = true(i)
+        mode%along = true(i)/largest
+      end if
+      mode%shape = true(:n)/largest
+    end associate
+    mode%motion = motion/largest
+  end subroutine take_shape
 end module gfb_machine_modes

@@ -5,17 +5,26 @@ module gfb_machine_response
   use gfb_linear_solve, only: solve_general
   use gfb_shaft, only: motions
   use gfb_machine, only: machine_type
-  use gfb_dynamic_response, only: find_coefficients
+  use gfb_moving_sleeves, only: true_motions, forces_on_motions
   use gfb_frequency_response, only: coefficients_at
+  use gfb_machine_equilibrium, only: find_journal_coefficients
   use gfb_machine_linear, only: linear_bearing_type, add_bearing, journal_motion
   implicit none (type)
   private
   public :: find_machine_response
 
+  integer, parameter :: across(motions) = [1, 2, 4, 5] !! coordinates of forces that are kept: x, y, about x, about y
+
+  !> Coefficients of a journal's motions.
+  type :: journal_matrix_type
+    complex(wp), allocatable :: of(:, :)
+  end type journal_matrix_type
+
   !> Motions \( q e^{i \Omega t} \).
   type, public :: machine_response_type
     real(wp) :: speed = 0.0_wp !! [rad/s]
     complex(wp), allocatable :: motion(:)   !! of the shaft [m], [1]
+    complex(wp), allocatable :: all_motions(:) !! as the machine's equations have them [m], [1]
     complex(wp), allocatable :: force(:, :) !! (x, y, about x, about y; bearing) of films on the shaft [N], [N m]
   end type machine_response_type
 
@@ -25,47 +34,62 @@ contains
   subroutine find_machine_response(machine, linear, force, response, found)
     type(machine_type), intent(in) :: machine
     type(linear_bearing_type), intent(inout) :: linear(:)
-    complex(wp), intent(in) :: force(:) !! at t = 0 [N], [N m]
+    complex(wp), intent(in) :: force(:) !! on the shaft at t = 0 [N], [N m]
     type(machine_response_type), intent(out) :: response
     logical, intent(out) :: found
-    complex(wp), allocatable :: matrix(:, :)
-    complex(wp) :: coefficient(motions, motions, size(linear)), rate
-    integer :: i
+    type(journal_matrix_type) :: coefficient(size(linear))
+    complex(wp), allocatable :: matrix(:, :), true(:), of_film(:)
+    complex(wp) :: rate
+    integer :: i, k, row
 
     rate = cmplx(0.0_wp, machine%speed, wp)
     matrix = machine%equations%dynamic_stiffness(rate, machine%speed)
     do i = 1, size(linear)
-      call coefficients_of(machine, linear(i), coefficient(:, :, i), found)
+      call coefficients_of(machine, i, linear(i), coefficient(i)%of, found)
       if (.not. found) return
-      call add_bearing(machine, i, coefficient(:, :, i), matrix)
+      call add_bearing(machine, i, coefficient(i)%of, matrix)
     end do
     response%speed = machine%speed
-    response%motion = force
-    call solve_general(matrix, response%motion, found)
+    response%all_motions = forces_on_motions(machine%sleeve, [force, ((0.0_wp, 0.0_wp), i=size(force) + 1, size(machine%force))])
+    call solve_general(matrix, response%all_motions, found)
     if (.not. found) return
-    allocate (response%force(motions, size(linear)))
+    true = true_motions(machine%sleeve, response%all_motions)
+    response%motion = true(:size(force))
+    allocate (response%force(motions, size(linear)), source=(0.0_wp, 0.0_wp))
     do i = 1, size(linear)
-      response%force(:, i) = -matmul(coefficient(:, :, i), journal_motion(machine, i, response%motion))
+      associate (coordinate => machine%journal(i)%coordinate)
+        of_film = -matmul(coefficient(i)%of, journal_motion(machine, i, coordinate, response%all_motions))
+        do k = 1, size(coordinate)
+          row = findloc(across, coordinate(k), 1)
+          if (row > 0) response%force(row, i) = of_film(k)
+        end do
+      end associate
     end do
   end subroutine find_machine_response
 
-  !> Z of a bearing at the frequency of the speed; a sample is not taken again.
-  subroutine coefficients_of(machine, linear, coefficient, found)
+  !> Z of the motions that a journal's film feels, at the frequency of the speed; a sample is not taken again.
+  subroutine coefficients_of(machine, number, linear, coefficient, found)
     type(machine_type), intent(in) :: machine
+    integer, intent(in) :: number !! of the journal
     type(linear_bearing_type), intent(inout) :: linear
-    complex(wp), intent(out) :: coefficient(:, :) !! [SI]
+    complex(wp), allocatable, intent(out) :: coefficient(:, :) !! [SI]
     logical, intent(out) :: found
+    complex(wp), allocatable :: whole(:, :)
+    integer, allocatable :: of(:)
     integer :: k
 
     found = .false.
     if (allocated(linear%model%part)) then
       found = all([(linear%model%part(k)%has(machine%speed), k=1, size(linear%model%part))]) .and. .not. allocated(linear%model%opposite)
     end if
-    if (found) then
-      coefficient = coefficients_at(linear%response, linear%model, machine%speed)
-    else
-      call find_coefficients(linear%bearing, linear%response, cmplx(0.0_wp, machine%speed, wp), coefficient, found, &
-                             only_translations=machine%count < motions)
-    end if
+    associate (journal => machine%journal(number))
+      if (found) then
+        whole = coefficients_at(linear%response, linear%model, machine%speed)
+        of = [(findloc(linear%response%motion, journal%coordinate(k), 1), k=1, size(journal%coordinate))]
+        coefficient = whole(of, of)
+      else
+        call find_journal_coefficients(linear%bearing, linear%response, journal, cmplx(0.0_wp, machine%speed, wp), coefficient, found)
+      end if
+    end associate
   end subroutine coefficients_of
 end module gfb_machine_response

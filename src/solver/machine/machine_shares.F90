@@ -7,7 +7,6 @@
 module gfb_machine_shares
   use petscvec
   use gfb_kinds, only: wp
-  use gfb_shaft, only: motions
   use gfb_machine, only: machine_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_dynamic_response, only: dynamic_response_type
@@ -24,11 +23,11 @@ contains
     type(machine_type), intent(in) :: machine
     type(linear_bearing_type), intent(inout) :: linear(:) !! with the factors of the mode's rate, or next to it
     complex(wp), intent(in) :: rate !! lambda [1/s]
-    complex(wp), intent(in) :: motion(:) !! of the shaft [m], [1]
+    complex(wp), intent(in) :: motion(:) !! of all that moves, as the machine's equations have it [m], [1]
     real(wp), allocatable, intent(out) :: share(:) !! a bearing each [1]
     logical, intent(out) :: found !! films and foils could be solved for
     real(wp) :: of_shaft, of_film
-    complex(wp) :: own(motions)
+    complex(wp), allocatable :: own(:)
     integer :: i, k
 
     allocate (share(size(linear)), source=0.0_wp)
@@ -37,9 +36,11 @@ contains
     end associate
     found = .true.
     do i = 1, size(linear)
-      own = journal_motion(machine, i, motion)
+      associate (coordinate => linear(i)%response%motion)
+        own = journal_motion(machine, i, coordinate, motion)
+      end associate
       do k = 1, size(linear(i)%response%part)
-        if (any(linear(i)%response%part(k)%coordinate > machine%count)) cycle
+        if (.not. any(abs(own(linear(i)%response%part(k)%coordinate)) > 0.0_wp)) cycle
         call find_energy(linear(i)%bearing, linear(i)%response, k, rate, own, of_film, found)
         if (.not. found) return
         share(i) = share(i) + of_film

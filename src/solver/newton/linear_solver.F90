@@ -59,6 +59,7 @@ module gfb_linear_solver
   real(wp), parameter :: chord_fall = 0.9_wp        !! and the residual by this [1]
 
   real(wp), parameter :: jump = 5.0_wp              !! of the residual at the start of nearby solves, where contacts have changed [1]
+  real(wp), parameter :: at_rest = 1.0e-6_wp        !! less than that is usual where nothing moves yet [1]
   real(wp), parameter :: growth = 2.0_wp            !! of what is usual there, from one to the next [1]
 
   !> What is known of the present factors.
@@ -237,9 +238,9 @@ contains
 
     if (solver%usual > 0.0_wp) then
       solver%keep = solver%keep .and. residual <= jump*solver%usual
-      solver%usual = min(residual, growth*solver%usual)
+      solver%usual = max(min(residual, growth*solver%usual), at_rest)
     else
-      solver%usual = residual
+      solver%usual = max(residual, at_rest)
     end if
   end subroutine judge_start
 

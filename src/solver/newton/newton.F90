@@ -65,6 +65,7 @@ module gfb_newton
     !> for any answer bends them, a path that follows a branch does not.
     integer :: straight_steps = huge(1)
     integer :: bold_steps = 0 !! of one solve, the first ones, that may enlarge the residual
+    logical :: on_the_way = .false. !! the answer is a stage of another iteration, which its error goes into once
     logical :: may_be_stopped = .true. !! by a signal, between two iterations
     type(work_bound_type), pointer :: bound => null() !! of a search for an answer, where it has one
   end type newton_settings_type
@@ -85,6 +86,7 @@ module gfb_newton
     type(line_search_type), private :: line  !! of the present solve
     type(secants_type), private :: secants   !! what steps with kept factors have taught
     logical, private :: traps = .false.      !! divisions by zero stop the program (debug build)
+    logical, private :: begins_near = .false. !! the present solve begins beside an answer
     logical, private :: rounded = .false.    !! the present solve has ended at round-off
     real(wp), private :: unknowns = 1.0_wp   !! their number
   end type newton_type
@@ -241,10 +243,14 @@ contains
 
   !> The same of equations that are nearly those of the solve before: with the factors at hand, if there are any, and with
   !> what steps have taught since they were made.
-  subroutine solve_nearby(newton, report)
+  subroutine solve_nearby(newton, report, again)
     type(newton_type), target, intent(inout) :: newton !! the solver
     type(newton_report_type), intent(out) :: report !! how it ended
+    !> from beside the answer of the solve before: how small its residual is there says nothing of other solves
+    logical, intent(in), optional :: again
 
+    newton%begins_near = .false.
+    if (present(again)) newton%begins_near = again
     call keep_ready(newton%linear, .not. newton%linear%forgotten, newton%system%times_filled)
     call begin_secants(newton%secants, newton%system%state, .not. newton%system%slow_change)
     call solve_on(newton, report)
@@ -478,13 +484,13 @@ contains
     call show_iteration(newton%log, int(iteration), residual, newton%line%step, newton%line%length, newton%linear%fresh, &
                         share_words(newton%settings%bound))
     if (iteration == 0) then
-      if (newton%secants%used) call judge_start(newton%linear, residual)
+      if (newton%secants%used .and. .not. newton%begins_near) call judge_start(newton%linear, residual)
       if (residual <= 10.0_wp*epsilon(1.0_wp) .and. newton%system%settled) reason = SNES_CONVERGED_FNORM_ABS
       return
     end if
     if (newton%line%length < 1.0_wp .or. .not. newton%system%settled) return
     small = newton%line%step <= newton%settings%step_tolerance
-    if (newton%secants%used) then ! errors of steps of time add up
+    if (newton%secants%used .and. .not. newton%settings%on_the_way) then ! errors of steps of time add up
       small = newton%line%step <= careful*newton%settings%step_tolerance
       small = small .or. remaining_error(newton%line) <= newton%settings%step_tolerance
     end if

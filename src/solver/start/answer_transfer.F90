@@ -15,7 +15,6 @@ module gfb_answer_transfer
   use gfb_contact_point, only: spatial
   use gfb_foil_surface, only: foil_surface_type
   use gfb_foil_model, only: foil_model_type
-  use gfb_meshed_foil, only: top_surface, bump_surface
   use gfb_bump_contacts, only: contact_top
   use gfb_foil_builder, only: axial, about_tangent
   use gfb_pad, only: pad_type
@@ -69,16 +68,17 @@ contains
         end associate
       end do
       call bearing%add_up(unknown, bearing%state)
-      if (any([(allocated(small_surface(i)%mesh%cut), i=bump_surface, size(surface))])) then
+      do i = 1, size(surface)
+        if (surface(i)%lies_on_film .or. .not. allocated(small_surface(i)%mesh%cut)) cycle
         call bearing%get_unknowns(now)
         do k = 1, size(bearing%pad)
           associate (from => small%pad(k), to => bearing%pad(k))
-            call keep_approach(from, small_surface(bump_surface), coarse(from%first + 1:from%last), to, surface(bump_surface), &
+            call keep_approach(from, small_surface(i), coarse(from%first + 1:from%last), to, surface(i), &
                                now(to%first + 1:to%last), unknown(to%first + 1:to%last))
           end associate
         end do
         call bearing%add_up(unknown, bearing%state)
-      end if
+      end do
     else
       call bearing%put_pressure(film_field(small, small%film_pressure(coarse) + small%solid_pressure(coarse), around, share), &
                                 unknown)
@@ -204,7 +204,7 @@ contains
     wanted = pack(surface%part%mesh_node, surface%part%owned)
     station = (wanted - 1)/surface%mesh%rows + 1
     row = modulo(wanted - 1, surface%mesh%rows) + 1
-    if (number == top_surface) then
+    if (surface%lies_on_film) then
       along = find_places(small%whole%surface%radius*small%whole%station_angle, &
                           bearing%whole%surface%radius*bearing%whole%station_angle(station), .false.)
     else

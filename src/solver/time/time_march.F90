@@ -29,6 +29,7 @@ module gfb_time_march
   implicit none (type)
   private
   public :: begin_rubbing, march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past, find_misfit
+  public :: prepare_step_of, predict_step, accept_step
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   integer, parameter :: most_trials = 12 !! of one step
@@ -183,7 +184,7 @@ contains
     do i = 1, kept_times
       if (i == 1) call bearing%get_unknowns(unknown)
       if (i > 1) call bearing%get_unknowns(unknown, march%state(i))
-      if (.not. bearing%floats) bearing%point%place(:2) = march%place(:2, i)
+      if (bearing%shaft_fixed .or. .not. bearing%floats) bearing%point%place = march%place(:, i)
       here = bearing%position(unknown)
       if (i <= march%steps + 1 .and. any(abs(here%place - march%place(:, i)) > rounding*maxval(abs(march%place)))) then
         what = 'where the sleeve was' ! before its first step there was none
@@ -191,7 +192,7 @@ contains
       open = bearing%is_open_at(unknown)
       if (.not. open) what = 'a film that is not open'
     end do
-    if (.not. bearing%floats) bearing%point%place(:2) = march%place(:2, 1)
+    if (bearing%shaft_fixed .or. .not. bearing%floats) bearing%point%place = march%place(:, 1)
   end subroutine find_misfit
 
   !> Goes on from a restart file, which has left the bearing at the newest state, and the march with all but what follows
@@ -208,7 +209,7 @@ contains
       call bearing%get_unknowns(march%unknown(:, step), march%state(step))
     end do
     do step = 2, 1, -1
-      if (.not. bearing%floats) bearing%point%place(:2) = march%place(:2, step)
+      if (bearing%shaft_fixed .or. .not. bearing%floats) bearing%point%place = march%place(:, step)
       call recall_step(bearing, step, march%unknown(:, step))
       do i = 1, size(bearing%pad)
         call look_at_pad(bearing, i, march%unknown(:, step), march%pad(i))
@@ -248,8 +249,8 @@ contains
 
     step = allowed_step(march)
     do trial = 1, most_trials
-      call put_terms(march, step, bearing)
-      call predict(march, step, bearing)
+      call prepare_step_of(march, step, bearing)
+      call predict_step(march, step, bearing)
       call solve_nearby(newton, report)
       if (report%converged) then
         place = place_of(bearing)
@@ -267,7 +268,7 @@ contains
       report%reason = 'the error of a step stays too large'
     end if
     if (report%converged) then
-      call accept(march, step, place, bearing)
+      call accept_step(march, step, place, bearing)
       march%next = next_step(step, error)
       if (march%settings%steps_per_turn > 0.0_wp) march%next = usual_step(march)
     else
@@ -276,11 +277,11 @@ contains
   end subroutine take_step
 
   !> The state becomes the newest of the past; friction carries its slip along.
-  subroutine accept(march, step, place, bearing)
-    type(march_type), intent(inout) :: march
+  subroutine accept_step(march, step, place, bearing)
+    type(march_type), intent(inout) :: march !! its past
     real(wp), intent(in) :: step !! that led to it [s]
     real(wp), intent(in) :: place(:) !! of the sleeve and its tilt [m], [rad]
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! at the state
     real(wp) :: velocity(film_forces), weight(0:2)
     integer :: i
     PetscErrorCode :: ierr
@@ -308,13 +309,16 @@ contains
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
     end do
     if (bearing%is_meshed()) call bearing%commit()
-  end subroutine accept
+  end subroutine accept_step
 
   !> Puts what a step adds into the bearing's equations.
-  subroutine put_terms(march, step, bearing)
-    type(march_type), intent(inout) :: march
+  subroutine prepare_step_of(march, step, bearing, held_at)
+    type(march_type), intent(inout) :: march !! its past
     real(wp), intent(in) :: step !! [s]
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! at the newest state
+    !> where the sleeve is at the end of the step and how it is tilted, of a shaft that is moved from outside; else its drive
+    !> has an orbit [m], [rad]
+    real(wp), intent(in), optional :: held_at(film_forces)
     real(wp) :: weight(0:2), time, place(film_forces)
     integer :: i
 
@@ -330,6 +334,8 @@ contains
         bearing%point%inertia(4:, 4:) = march%drive%transverse_inertia*weight(0)**2*unit + weight(0)*gyration(march, time)
         bearing%point%place(4:5) = free_tilt(march, weight, gyration(march, time), place(4:))
       end if
+    else if (present(held_at)) then
+      bearing%point%place = held_at
     else
       bearing%point%place(:2) = march%start%place(:2) + march%drive%orbit_at(time)
     end if
@@ -340,7 +346,7 @@ contains
         pad%film%past = weight(1)*past%stored(:, :, 1) + weight(2)*past%stored(:, :, 2)
       end associate
     end do
-  end subroutine put_terms
+  end subroutine prepare_step_of
 
   !> Where the sleeve would be after a step without any force: the acceleration is a_0^2 times the way from there.
   pure function free_place(march, weight) result(place)
@@ -406,10 +412,10 @@ contains
   end function place_of
 
   !> Begins Newton's method ahead of the newest state, where the film is open there.
-  subroutine predict(march, step, bearing)
-    type(march_type), intent(in) :: march
+  subroutine predict_step(march, step, bearing)
+    type(march_type), intent(in) :: march !! its past
     real(wp), intent(in) :: step !! [s]
-    type(bearing_system_type), intent(inout) :: bearing
+    type(bearing_system_type), intent(inout) :: bearing !! prepared for the step; gets the state
     real(wp) :: ahead(size(march%unknown, 1)), place(film_forces)
     logical :: open
     integer :: i
@@ -430,7 +436,7 @@ contains
     else
       call bearing%set_unknowns(march%unknown(:, 1))
     end if
-  end subroutine predict
+  end subroutine predict_step
 
   !> The bearing's equations become those of a steady state again.
   subroutine end_march(march, bearing)

@@ -121,9 +121,10 @@ contains
   !> The answer that a restart file holds, and all that was recorded.
   !>
   !> Fails when the file is damaged.
-  subroutine resume(self, error)
+  subroutine resume(self, error, name)
     class(bearing_solution_type), target, intent(inout) :: self !! the solution
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    character(len=*), intent(in), optional :: name !! of its archive in the file; default: bearing
     type(bearing_plan_type) :: on_way
 
     associate (restart => self%context%restart, log => self%context%log)
@@ -134,7 +135,7 @@ contains
       call build_bearing(self%here, on_way, self%bearing, error, frozen=self%scene%transient%present)
       if (allocated(error)) return
       call create_newton(self%newton, self%bearing, 'bearing_', self%tolerances, log)
-      call restore_bearing(self%here, restart, log, self%bearing, self%newton, self%record, error)
+      call restore_bearing(self%here, restart, log, self%bearing, self%newton, self%record, error, name)
       if (allocated(error)) return
       if (self%partitioned) call create_partitioned(self%bearing, self%tolerances, log, self%sides)
       call self%last%save(self%bearing, self%newton)

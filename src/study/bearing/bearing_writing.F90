@@ -32,6 +32,7 @@ module gfb_bearing_writing
   use gfb_foil_grid, only: add_foil_grids
   use gfb_provenance, only: blas_in_use
   use gfb_bearing_solution, only: bearing_solution_type
+  use gfb_kept_limits, only: add_margins, show_broken_limits
   use gfb_mesh_plan, only: bearing_plan_type
   implicit none (type)
   private
@@ -257,7 +258,7 @@ contains
       call add_quantity(summary, bearing%pad(1)%foil%sizes())
       if (allocated(record%judged)) call add_quantity(summary, record%judged)
       if (record%dynamics%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', record%dynamics%onset)
-      call add_film_margin(scene, answer%minimum_gap, summary)
+      call add_margins(scene, record%history, summary)
       call add_quantity(summary, cost_quantities(result%cost))
       summary = asked_first(summary)
       columns = columns_of(scene, solution)
@@ -273,7 +274,7 @@ contains
       if (.not. result%plan%upwind) call show_unresolved(log, result%plan, answer%rough_peclet)
       call show_large_deflection(log, scene, answer%maximum_deflection)
       if (.not. converged) call show_early_end(log, scene, answer%minimum_gap)
-      if (converged) call show_thin_film(log, scene, summary)
+      if (converged) call show_broken_limits(scene, record%history, summary, log)
       if (scene%model%foil%has_bumps) call show_contact_notes(log, scene%contact, answer%contact, answer%maximum_deflection)
       allocate (grids(0))
       call add_film_grid(bearing, scene%output, grids)
@@ -284,32 +285,6 @@ contains
       if (.not. allocated(error)) call write_coefficients(record, scene, context, error)
     end associate
   end subroutine write_bearing
-
-  !> Adds how many times the film is as thick as the one wanted, where that does not end a search.
-  subroutine add_film_margin(scene, gap, summary)
-    type(scene_type), intent(in) :: scene !! with the film wanted
-    real(wp), intent(in) :: gap !! smallest of the last state [m]
-    type(quantity_type), allocatable, intent(inout) :: summary(:)
-    real(wp) :: smallest
-
-    if (scene%capacity%limit > 0 .or. .not. scene%capacity%smallest_gap > 0.0_wp) return
-    smallest = gap
-    if (place_of('minimum_gap_over_time', summary) > 0) smallest = number_in(summary, 'minimum_gap_over_time')
-    call add_result(summary, 'film_margin', smallest/scene%capacity%smallest_gap)
-  end subroutine add_film_margin
-
-  !> Warns of a film that is thinner than the one wanted.
-  subroutine show_thin_film(log, scene, summary)
-    type(run_log_type), intent(in) :: log
-    type(scene_type), intent(in) :: scene !! with the film wanted
-    type(quantity_type), intent(in) :: summary(:)
-    real(wp) :: margin
-
-    if (place_of('film_margin', summary) == 0) return
-    margin = number_in(summary, 'film_margin')
-    if (margin < 1.0_wp) call log%warning('the smallest film, '//text(margin*scene%capacity%smallest_gap/micrometre, 4)// &
-      ' um, is thinner than smallest_gap of &capacity, '//text(scene%capacity%smallest_gap/micrometre, 4)//' um')
-  end subroutine show_thin_film
 
   !> Warns of cells so long, and without upwinding, that the pressure may oscillate, or that it does not fall behind the film as
   !> it should.

@@ -11,7 +11,7 @@ module gfb_dynamics
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
   use gfb_motion_cases, only: tangent_stick, frequencies_at
-  use gfb_film_surface, only: journal_motions
+  use gfb_film_surface, only: journal_motions, axial_coordinate
   use gfb_bearing_system, only: bearing_system_type
   use gfb_heat_switch, only: held_bearing_type, hold_heat
   use gfb_bearing_builder, only: build_opposite
@@ -72,8 +72,8 @@ contains
     call describe_mass(scene, log, response%equations%inertia, first)
     call fill_coefficients(scene, log, held%bearing, response, model, point, record%problem)
     if (.not. allocated(record%problem)) then
-      call add_entries('stiffness_', stiffness_of(point, 1), found)
-      call add_entries('damping_', damping_of(point, 1), found)
+      call add_entries('stiffness_', point%motion, stiffness_of(point, 1), found)
+      call add_entries('damping_', point%motion, damping_of(point, 1), found)
       if (.not. scene%sweep%present) call show_coefficients(scene, log, held%bearing%point%speed, point)
     end if
     if (.not. allocated(record%problem) .and. size(scene%dynamics%amplitudes) > 0) then
@@ -118,7 +118,8 @@ contains
     end if
     if (.not. made) problem = 'the vibration at '//text(model%failed)//' rad/s: '//response_failure(response)
     if (.not. made) return
-    associate (motions => size(response%motion))
+    point%motion = bearing%mesh%surface%motions()
+    associate (motions => size(point%motion))
       allocate (point%coefficient(motions, motions, size(point%frequency)))
     end associate
     do i = 1, size(point%frequency)
@@ -209,20 +210,21 @@ contains
     call log%line('amplitude [m]   Kxx Kxy Kyx Kyy [N/m]   Cxx Cxy Cyx Cyy [N s/m]   lost in contacts, x y [J a cycle]')
     do k = 1, size(point%amplitude)
       associate (z => point%at_amplitude(:, :, k, i), lost => point%friction_loss(:, k, i))
-        call log%line(text(point%amplitude(k), digits)//numbers_of(real(z, wp))//numbers_of(aimag(z)/point%frequency(i))// &
+        call log%line(text(point%amplitude(k), digits)//numbers_of(point%motion, real(z, wp))//numbers_of(point%motion, aimag(z)/point%frequency(i))// &
                       '   '//text(lost(1), digits)//' '//text(lost(2), digits))
       end associate
     end do
   end subroutine show_amplitudes
 
   !> The entries of x and y, or of z and of tilts, row by row.
-  function numbers_of(matrix) result(line)
+  function numbers_of(motion, matrix) result(line)
+    integer, intent(in) :: motion(:) !! the shaft's coordinates
     real(wp), intent(in) :: matrix(:, :)
     character(len=:), allocatable :: line
     integer :: row
 
     line = '  '
-    if (size(matrix, 1) < journal_motions) then
+    if (motion(1) == axial_coordinate) then
       line = line//' '//text(matrix(1, 1), digits)//', '//text(matrix(2, 2), digits)//' '//text(matrix(2, 3), digits)//' '// &
              text(matrix(3, 2), digits)//' '//text(matrix(3, 3), digits)
       return
@@ -367,7 +369,7 @@ contains
     character(len=:), allocatable :: line
     integer :: i
 
-    if (size(point%coefficient, 1) < journal_motions) then
+    if (point%motion(1) == axial_coordinate) then
       call log%line('frequency [rad/s] (over speed)   Kzz [N/m], of tilts Kxx Kxy Kyx Kyy [N m/rad]   '// &
                     'Czz [N s/m], Cxx Cxy Cyx Cyy [N m s/rad]')
     else
@@ -377,37 +379,29 @@ contains
       if (all(abs(frequencies_at(scene%dynamics, speed) - point%frequency(i)) > 0.0_wp)) cycle
       line = text(point%frequency(i), digits)
       if (speed > 0.0_wp) line = line//' ('//text(point%frequency(i)/speed, digits)//')'
-      call log%line(line//numbers_of(stiffness_of(point, i))//numbers_of(damping_of(point, i)))
+      call log%line(line//numbers_of(point%motion, stiffness_of(point, i))//numbers_of(point%motion, damping_of(point, i)))
     end do
   end subroutine show_coefficients
 
   !> The entries that are results, a number each.
-  subroutine add_entries(name, matrix, found)
+  subroutine add_entries(name, motion, matrix, found)
     character(len=*), intent(in) :: name !! before the two axes
+    integer, intent(in) :: motion(:) !! the shaft's coordinates
     real(wp), intent(in) :: matrix(:, :)
     type(quantity_type), allocatable, intent(inout) :: found(:)
-    character(len=4), allocatable :: axes(:)
-    integer :: row, column
+    integer, parameter :: across = 1, along = 2, tilt = 3 !! the axis
+    character(len=4) :: axes(size(motion))
+    integer :: kind(size(motion)), row, column
 
-    axes = motion_names(size(matrix, 1))
+    axes = motion_names(motion)
+    kind = merge(across, merge(along, tilt, motion == axial_coordinate), motion < axial_coordinate)
     do row = 1, size(matrix, 1)
       do column = 1, size(matrix, 2)
-        if (.not. is_result(row, column)) cycle
+        ! What couples kinds, and the tilts of a shaft that moves across, is in the arrays alone.
+        if (kind(row) /= kind(column) .or. (kind(row) == tilt .and. any(kind == across))) cycle
         call add_result(found, name//trim(axes(row))//trim(axes(column)), matrix(row, column))
       end do
     end do
-
-  contains
-
-    !> Whether an entry is a result of its own: of x and y, or along the axis, and a runner's tilts.
-    pure logical function is_result(row, column)
-      integer, intent(in) :: row, column
-      if (size(matrix, 1) >= journal_motions) then
-        is_result = max(row, column) <= translations .or. (axes(row) == 'z' .and. axes(column) == 'z')
-      else
-        is_result = (row == 1) .eqv. (column == 1)
-      end if
-    end function is_result
   end subroutine add_entries
 
   !> Looks for the mass that whirls, where the shaft turns.

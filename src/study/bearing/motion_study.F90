@@ -21,6 +21,7 @@ module gfb_motion_study
   use gfb_onset, only: judge_first_point
   implicit none (type)
   private
+  public :: stop_heat
 
   !> The bearing, and its shaft over time.
   type, extends(bearing_study_type), public :: transient_study_type

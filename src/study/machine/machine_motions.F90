@@ -196,6 +196,7 @@ contains
     end associate
     call add_array(arrays, '/dynamics/mode_station_sense', '1', 'of each mode, of a sweep at its last point, at bearings, discs, '// &
                    'stations: 1: a circle with the speed, -1: against it', shape)
+    if (machine%along > 0) call add_axial(motions(size(motions))%mode, arrays)
 
   contains
 
@@ -208,6 +209,14 @@ contains
       if (.not. sweeps) call add_array(arrays, '/dynamics/'//name, unit, meaning, transpose(values))
     end subroutine add_rows
   end subroutine add_modes
+
+  !> How the shaft moves along its axis in each mode.
+  subroutine add_axial(mode, arrays)
+    type(machine_mode_type), intent(in) :: mode(:)
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    call add_array(arrays, '/dynamics/mode_shape_z', 'mixed SI', 'of each mode, of a sweep at its last point: real and imaginary part '// &
+                   'of z of the shaft', reshape([real(mode%along, wp), aimag(mode%along)], [2, size(mode)], order=[2, 1]))
+  end subroutine add_axial
 
   !> Text at the right of a column.
   pure function right_text(words, width) result(padded)

@@ -3,26 +3,30 @@
 module gfb_machine_study
   use petscsys
   use gfb_kinds, only: wp
-  use gfb_errors, only: error_type, fail
+  use gfb_errors, only: error_type
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
-  use gfb_quantity, only: quantity_type
+  use gfb_quantity, only: quantity_type, quantity_word
   use gfb_result_names, only: add_result
   use gfb_scene, only: scene_type
-  use gfb_scene_reading, only: read_scene
-  use gfb_analysis_row, only: analysis_equilibrium
-  use gfb_model_case, only: half_width_no, half_width_yes
+  use gfb_machine_case, only: machine_case_type
   use gfb_memory_check, only: check_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks
   use gfb_c_library, only: peak_memory
-  use gfb_mesh_plan, only: bearing_plan_type
   use gfb_bearing_plan, only: plan_bearing
   use gfb_bearing_builder, only: check_meshes
+  use gfb_bearing_solution, only: new_solution
+  use gfb_motion_study, only: stop_heat
   use gfb_shaft, only: body_type
-  use gfb_held_shaft, only: held_shaft_type, free_motions
-  use gfb_machine, only: machine_type, build_machine, hold_at_rest, bearing_loads
+  use gfb_held_shaft, only: free_motions
+  use gfb_machine, only: machine_type, build_machine, line_of_shaft
   use gfb_machine_path, only: machine_path_type
+  use gfb_bearing_answer, only: bearing_answer_type
+  use gfb_machine_parts, only: part_type, read_parts, load_parts, heat_parts, axial_words, describe_others, check_fit, first_motions
+  use gfb_bearing_rows, only: add_machine_heat
+  use gfb_shaft_results, only: add_shaft_results, add_bearing_places
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
+  use gfb_machine_transient, only: machine_transient_type, part_archive
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_modes, only: not_counted
   use gfb_machine_motions, only: machine_motions_type, find_motions, check_waves, add_motions, growth_of
@@ -35,9 +39,9 @@ module gfb_machine_study
   use gfb_operation_case, only: angular_speed
   use gfb_scene_vibration, only: vibration_of
   use gfb_continuation, only: path_report_type
-  use gfb_bearing_solution, only: bearing_solution_type, new_solution
   use gfb_reasons, only: reason_type, reason_no_equilibrium
   use gfb_case_file, only: case_array_type, history_row_type
+  use gfb_grid_series, only: grid_series_type
   use gfb_result_set, only: result_grid_type, write_result_set
   use gfb_outcome, only: add_outcome
   use gfb_run_context, only: run_context_type
@@ -45,20 +49,10 @@ module gfb_machine_study
   implicit none (type)
   private
 
-  integer, parameter :: ways = 2 !! translations of a journal
-  real(wp), parameter :: unlike = 0.01_wp   !! diameters that differ by more do not fit [1]
-  real(wp), parameter :: touches = 1.0e-3_wp !! of a bearing's width: less of a segment is not under it [1]
   real(wp), parameter :: higher(*) = [1.0_wp, 1.5_wp, 2.5_wp] !! speeds of a start, over the first [1]
   real(wp), parameter :: shortest = 0.01_wp   !! step of the speed, over that to a point [1]
   integer, parameter :: most_trials = 30          !! of the search for an onset
   real(wp), parameter :: onset_tolerance = 1.0e-8_wp !! of its speed, and of growth over speed [1]
-
-  !> A bearing of the machine.
-  type :: part_type
-    type(scene_type), allocatable :: scene !! of its own file, under the machine's speed and load
-    type(bearing_plan_type) :: plan
-    type(bearing_solution_type), allocatable :: solution
-  end type part_type
 
   !> The machine, and what was found of it. It stays where it is from `solve` to `discard`.
   type, extends(study_type), public :: machine_study_type
@@ -68,9 +62,10 @@ module gfb_machine_study
     type(machine_bearing_type), allocatable :: bearing(:) !! of the parts' solutions
     type(machine_equilibrium_type) :: answer
     type(machine_path_type) :: path !! of answers over the speed
-    real(wp), allocatable :: stiffness(:, :) !! of the films at the last one [SI]
     type(machine_motions_type), allocatable :: motions(:) !! small ones about each answer
     type(history_row_type), allocatable :: history(:)     !! of a sweep
+    type(machine_transient_type), allocatable :: time !! its way, where that is asked for
+    real(wp), allocatable :: moving_force(:) !! on the machine over time: weight and loads [N], [N m]
     real(wp) :: onset = 0.0_wp !! speed from which on it whirls; 0: none was found [rpm]
     integer :: counted = not_counted !! modes, when they were counted last
     type(machine_response_type), allocatable :: responses(:) !! to unbalance
@@ -92,133 +87,66 @@ module gfb_machine_study
 
 contains
 
+  !> The machine under a gravity.
+  function machine_of(self, scene, gravity) result(machine)
+    class(machine_study_type), intent(in) :: self !! its bearings are read
+    type(scene_type), intent(in) :: scene !! what is asked for
+    real(wp), intent(in) :: gravity(2) !! [m/s^2]
+    type(machine_type) :: machine
+    type(machine_case_type) :: asked
+    real(wp), allocatable :: places(:)
+    integer :: i
+
+    asked = scene%machine
+    asked%gravity = gravity
+    places = scene%unbalance%position
+    if (scene%transient%pulse_position >= 0.0_wp) places = [places, scene%transient%pulse_position]
+    machine = build_machine(asked, places, [(self%part(i)%scene%bearing%row, i=1, size(self%part))])
+  end function machine_of
+
   !> Reads the files of the bearings, and says what the machine is.
   subroutine prepare_machine(self, scene, log)
     class(machine_study_type), intent(inout) :: self !! the study
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
-    real(wp), allocatable :: load(:, :)
+    real(wp), allocatable :: later(:)
     type(body_type) :: body
-    logical :: regular
     integer :: i
 
-    self%machine = build_machine(scene%machine, scene%unbalance%position)
+    call read_parts(scene, self%part, self%refused)
+    if (allocated(self%refused)) return
+    self%machine = machine_of(self, scene, scene%machine%gravity)
+    if (scene%transient%present) then
+      later = self%machine%force
+      self%machine = machine_of(self, scene, scene%transient%start_gravity)
+      call move_alloc(later, self%moving_force)
+    end if
+    self%machine%heat = heat_parts(scene, self%machine, self%part)
     body = self%machine%shaft%body()
     call log%line('shaft with discs: '//text(body%mass, 5)//' kg, centre of mass at '//text(body%centre*1.0e3_wp, 5)// &
                   ' mm, transverse inertia '//text(body%transverse_inertia, 4)//' kg m2, polar '// &
                   text(body%polar_inertia, 4)//' kg m2')
-    call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '// &
-                  text(self%machine%shaft%coordinates())//' motions, of which '// &
-                  text(self%machine%count*size(self%machine%journal))//' at journals')
+    call log%line('shaft: '//text(size(self%machine%shaft%section))//' elements, '//text(size(self%machine%force))// &
+                  ' motions, of which '//text(size(self%machine%held))//' at journals')
     if (.not. any(abs(self%machine%force) > 0.0_wp)) call log%line('neither weight nor loads: journals stand in the middle of their sleeves')
     if (size(self%machine%journal) == 1) call log%warning('one bearing alone holds the shaft, by the tilts of its journal')
     if (scene%general%asked%takes('dynamics')) call check_waves(scene, self%machine, log)
-    call bearing_loads(self%machine, load, regular)
-    allocate (self%part(size(self%machine%journal)))
+    call describe_others(self%machine, log)
+    call load_parts(scene, self%machine, self%part)
     do i = 1, size(self%part)
       associate (part => self%part(i))
-        call read_part(scene, i, part, self%refused)
-        if (allocated(self%refused)) return
         call log%line('bearing '//text(i)//' at '//text(self%machine%journal(i)%position*1.0e3_wp, 5)//' mm, '// &
                       trim(scene%machine%file(i))//':')
-        part%scene%operation%load = 0.0_wp
-        if (regular) then
-          part%scene%operation%load = load(:, i)
-          call log%line('load by levers ('//text(load(1, i), 5)//', '//text(load(2, i), 5)//') N')
+        if (part%scene%bearing%row%moves_across) then
+          call log%line('load by levers ('//text(part%scene%operation%load(1), 5)//', '//text(part%scene%operation%load(2), 5)//') N')
         end if
+        if (part%scene%bearing%row%moves_along) call log%line(axial_words(part%scene))
         call plan_bearing(part%scene, log, part%plan)
         self%memory = self%memory + part%plan%memory
       end associate
     end do
     call check_fit(scene, self%part, log, self%refused)
   end subroutine prepare_machine
-
-  !> Warns of a shaft that is not as thick as a bearing has it.
-  !>
-  !> Fails where two bearings overlap.
-  subroutine check_fit(scene, part, log, error)
-    type(scene_type), intent(in) :: scene !! of the machine
-    type(part_type), intent(in) :: part(:) !! its bearings
-    type(run_log_type), intent(in) :: log
-    type(error_type), allocatable, intent(out) :: error
-    real(wp) :: first, last
-    integer :: i, k
-
-    associate (machine => scene%machine)
-      do i = 1, size(part)
-        do k = 1, i - 1
-          if (abs(machine%bearing_position(i) - machine%bearing_position(k)) >= &
-              0.5_wp*(part(i)%scene%bearing%length + part(k)%scene%bearing%length)) cycle
-          call fail(error, scene%file//': &bearings: positions('//text(i)//') = '//text(machine%bearing_position(i))// &
-                    ': the bearing overlaps that of positions('//text(k)//')')
-          return
-        end do
-        associate (bearing => part(i)%scene%bearing)
-          first = 0.0_wp
-          do k = 1, size(machine%length)
-            last = first + machine%length(k)
-            if (min(last, machine%bearing_position(i) + 0.5_wp*bearing%length) - &
-                max(first, machine%bearing_position(i) - 0.5_wp*bearing%length) > touches*bearing%length .and. &
-                abs(machine%outer_diameter(k) - 2.0_wp*bearing%radius) > unlike*2.0_wp*bearing%radius) then
-              call log%warning('segment '//text(k)//' of the shaft, under bearing '//text(i)//', has a diameter of '// &
-                               text(machine%outer_diameter(k))//' m, the journal in the bearing''s file one of '// &
-                               text(2.0_wp*bearing%radius)//' m')
-            end if
-            first = last
-          end do
-        end associate
-      end do
-    end associate
-  end subroutine check_fit
-
-  !> Reads the file of a bearing; speed, load and tilt are the machine's.
-  !>
-  !> Fails where the file is wrong, or is of something that cannot be a bearing of a machine.
-  subroutine read_part(scene, number, part, error)
-    type(scene_type), intent(in) :: scene !! of the machine
-    integer, intent(in) :: number !! of the bearing
-    type(part_type), intent(inout) :: part
-    type(error_type), allocatable, intent(out) :: error
-    character(len=:), allocatable :: file, why
-
-    associate (machine => scene%machine)
-      file = trim(machine%file(number))
-      if (file(:1) /= '/') file = scene%file(:index(scene%file, '/', back=.true.))//file
-      allocate (part%scene)
-      call read_scene(file, part%scene, error)
-      if (allocated(error)) return
-      why = ''
-      associate (one => part%scene)
-        if (allocated(one%machine)) then
-          why = 'it is a machine itself'
-        else if (.not. one%general%asked%has_film) then
-          why = 'it is a case of foils alone'
-        else if (.not. one%bearing%row%moves_across .or. one%bearing%row%moves_along) then
-          why = 'a machine has journal bearings so far'
-        else if (one%sweep%present) then
-          why = 'it has a &sweep: the machine is at one point'
-        else if (one%thermal%present) then
-          why = '&thermal is not carried by a machine yet'
-        else if (one%model%half_width == half_width_yes .and. machine%journal_tilts) then
-          why = "half_width = 'yes' in &model cannot tilt: leave it out, or say journal_tilts = .false. in &machine"
-        end if
-        if (why /= '') then
-          call fail(error, scene%file//': &bearings: files('//text(number)//') = '''//trim(machine%file(number))//''': '//why)
-          return
-        end if
-        one%general%asked = analysis_equilibrium
-        one%general%analysis = analysis_equilibrium
-        one%dynamics%present = .false.
-        one%capacity%limit = 0
-        one%transient%present = .false.
-        one%periodic%present = .false.
-        one%operation%speed_rpm = machine%speed_rpm
-        if (scene%sweep%present) one%operation%speed_rpm = scene%sweep%values(1)
-        one%operation%tilt = 0.0_wp
-        if (machine%journal_tilts) one%model%half_width = half_width_no
-      end associate
-    end associate
-  end subroutine read_part
 
   !> Checks, after `prepare`, whether the study can be done.
   !>
@@ -255,7 +183,7 @@ contains
     allocate (self%motions(points))
     call start_machine(self, context, error)
     if (allocated(error)) return
-    do i = 1, points
+    do i = 1, merge(0, points, context%restart%continues)
       if (self%reason%is_given()) exit
       if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
       call find_answer(self, scene, context%log, self%motions(i))
@@ -264,6 +192,15 @@ contains
       if (i > 1) call look_for_onset(self, scene, i, context%log)
     end do
     if (.not. self%reason%is_given()) call answer_unbalance(self, scene, context%log)
+    if (scene%transient%present .and. .not. self%reason%is_given()) then
+      do i = 1, merge(0, size(self%part), context%restart%continues)
+        call stop_heat(self%part(i)%solution)
+      end do
+      self%machine%force = self%moving_force
+      allocate (self%time)
+      call self%time%run(scene, self%part, self%machine, self%answer, self%bearing, context, self%reason, error)
+      if (allocated(error)) return
+    end if
     call count_work(self)
     self%converged = .not. self%reason%is_given()
     if (.not. self%converged) call context%log%tell(self%reason%words())
@@ -285,9 +222,9 @@ contains
     do i = 1, size(higher)
       self%machine%speed = angular_speed(higher(i)*speed_rpm)
       call start_bearings(self, higher(i)*speed_rpm, context, error)
-      if (allocated(error)) return
+      if (allocated(error) .or. context%restart%continues) return
       if (.not. self%reason%is_given()) then
-        self%answer%motion = first_motions(self)
+        self%answer%motion = first_motions(self%machine, self%part)
         call find_balance(self, context%log)
       end if
       if (.not. self%reason%is_given()) return
@@ -320,8 +257,15 @@ contains
         end if
         part%scene%operation%speed_rpm = speed_rpm
         call new_solution(part%solution)
-        call context%log%line('bearing '//text(i)//' alone:')
+        if (.not. context%restart%continues) call context%log%line('bearing '//text(i)//' alone:')
         call part%solution%set_up(part%scene, part%plan, context)
+        if (context%restart%continues) then
+          part%scene%transient%present = .true. ! heat is frozen
+          call part%solution%resume(error, part_archive(i))
+          if (allocated(error)) return
+          self%bearing(i) = machine_bearing_type(part%solution%bearing, part%solution%newton, part%solution%path)
+          cycle
+        end if
         call part%solution%start(0, report, error)
         if (allocated(error)) return
         if (.not. report%converged()) then
@@ -379,19 +323,18 @@ contains
     class(machine_study_type), intent(inout) :: self
     real(wp), intent(in) :: speed !! [rad/s]
     type(run_log_type), intent(in) :: log
+    type(machine_equilibrium_type) :: nearby
     real(wp), allocatable :: from(:)
 
     self%machine%speed = speed
     from = self%answer%motion
+    nearby = self%answer
     self%answer%converged = .false.
     if (allocated(self%path%speed)) then
       from = self%path%motion(:, 1)
-      call find_machine_equilibrium(self%machine, self%bearing, self%path%at(speed), log, self%answer, self%stiffness)
+      call find_machine_equilibrium(self%machine, self%bearing, self%path%at(speed), log, self%answer, nearby)
     end if
-    if (.not. self%answer%converged) then
-      if (allocated(self%stiffness)) deallocate (self%stiffness)
-      call find_machine_equilibrium(self%machine, self%bearing, from, log, self%answer, self%stiffness)
-    end if
+    if (.not. self%answer%converged) call find_machine_equilibrium(self%machine, self%bearing, from, log, self%answer)
     if (self%answer%converged) call self%path%add(speed, self%answer%motion)
   end subroutine try_speed
 
@@ -452,7 +395,7 @@ contains
     type(run_log_type), intent(in) :: log
     character(len=:), allocatable :: words
 
-    self%history = [self%history, history_row(scene%sweep%values(point), self%bearing, self%motions(point))]
+    self%history = [self%history, history_row(scene%sweep%values(point), self%machine, self%bearing, self%motions(point))]
     words = 'point '//text(point)//' of '//text(size(scene%sweep%values))//': '//text(scene%sweep%values(point))//' rpm'
     if (allocated(self%motions(point)%mode)) words = words//', growth '//text(growth_of(self%motions(point)), 4)//' 1/s'
     call log%line(words)
@@ -548,25 +491,6 @@ contains
     end do
   end subroutine drop_linear
 
-  !> The journals where their bearings carry the loads by levers, tilted as the shaft bends between them under its weight.
-  function first_motions(self) result(motion)
-    class(machine_study_type), intent(in) :: self
-    real(wp), allocatable :: motion(:) !! [m], [rad]
-    type(held_shaft_type) :: held
-    real(wp), allocatable :: line(:)
-    logical :: regular
-    integer :: i
-
-    allocate (motion(0))
-    do i = 1, size(self%part)
-      motion = [motion, self%machine%journal(i)%offset - self%part(i)%solution%bearing%eccentricity()]
-    end do
-    if (self%machine%count == ways) return
-    call hold_at_rest(self%machine, ways, held, regular)
-    line = free_motions(held, motion)
-    motion = [(self%machine%journal(i)%sign*line(self%machine%journal(i)%place), i=1, size(self%part))]
-  end function first_motions
-
   !> Writes the results.
   !>
   !> Fails when a file cannot be written.
@@ -578,15 +502,18 @@ contains
     type(error_type), allocatable, intent(out) :: error !! why it failed
     type(case_array_type), allocatable :: arrays(:)
     type(result_grid_type), allocatable :: grids(:)
+    type(bearing_answer_type), allocatable :: answer(:)
+    type(grid_series_type), pointer :: series ! none where nothing moves
     real(wp) :: memory(1)
     integer :: i
 
     call context%log%heading('answer')
     call add_result(summary, 'analysis', trim(scene%general%asked%word))
     call add_result(summary, 'converged', self%converged)
-    allocate (arrays(0), grids(0))
+    allocate (arrays(0), grids(0), answer(size(self%part)))
+    nullify (series)
     call add_body(self%machine, summary)
-    if (self%converged) call add_shaft_line(self%machine, self%answer, arrays)
+    if (self%converged) call add_shaft(self, scene, arrays, grids)
     if (self%converged) call add_motions(self%machine, self%motions, scene%sweep%present, context%log, summary, arrays)
     if (self%converged .and. allocated(self%responses)) then
       if (size(self%responses) > 0) then
@@ -600,9 +527,16 @@ contains
     end if
     do i = 1, size(self%part)
       if (.not. allocated(self%part(i)%solution)) cycle
-      call add_bearing(i, self%part(i)%solution%bearing, scene%output, context%log, summary, grids)
+      call add_bearing(i, self%machine%journal(i), self%part(i)%solution%bearing, scene%output, context%log, answer(i), summary, grids)
     end do
+    call add_result(summary, 'power_loss', sum(answer%power_loss))
+    if (self%converged) call add_machine_heat(self%machine, self%answer, answer, context%log, summary, arrays)
     if (self%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', self%onset)
+    if (allocated(self%time)) then
+      series => self%time%series
+      summary = [summary, self%time%results()]
+      call self%time%history%add_arrays(arrays)
+    end if
     call add_result(summary, 'unknowns', self%unknowns)
     call add_result(summary, 'newton_iterations', self%iterations)
     call add_result(summary, 'factorizations', self%factorizations)
@@ -612,8 +546,45 @@ contains
     call add_result(summary, 'peak_memory', memory(1))
     call add_outcome(summary, self%converged, self%reason)
     call write_result_set(scene, context%folder, self%converged, context%origin(), summary, self%history, arrays, grids, &
-                          context%csv, context%log, error)
+                          context%csv, context%log, error, series=series, parts=files_of(self%part))
   end subroutine write_machine
+
+  !> The case files of the bearings, so that a result has all that it is of.
+  function files_of(part) result(file)
+    type(part_type), intent(in) :: part(:)
+    type(quantity_type), allocatable :: file(:)
+    integer :: i
+
+    allocate (file(size(part)))
+    do i = 1, size(part)
+      file(i)%name = 'bearing_'//text(i)
+      file(i)%meaning = 'the case file of the bearing as it was read'
+      file(i)%kind = quantity_word
+      file(i)%word = part(i)%scene%verbatim
+    end do
+  end function files_of
+
+  !> What is along the shaft, and around it: in its equilibrium, or where the time has led.
+  subroutine add_shaft(self, scene, arrays, grids)
+    class(machine_study_type), intent(in) :: self
+    type(scene_type), intent(in) :: scene !! of the machine
+    type(case_array_type), allocatable, intent(inout) :: arrays(:)
+    type(result_grid_type), allocatable, intent(inout) :: grids(:)
+    real(wp), allocatable :: line(:)
+    integer :: i
+
+    if (allocated(self%time)) then
+      line = line_of_shaft(self%machine, self%time%march%motion(:, 1))
+    else
+      line = line_of_shaft(self%machine, free_motions(self%answer%held, self%answer%motion))
+    end if
+    call add_shaft_line(self%machine, line, arrays)
+    call add_shaft_results(scene%machine, self%machine, line, arrays, grids)
+    call add_bearing_places(self%machine%journal%position, [(self%part(i)%scene%bearing%length, i=1, size(self%part))], &
+                            [(self%part(i)%scene%bearing%radius, i=1, size(self%part))], &
+                            [(self%part(i)%scene%bearing%clearance, i=1, size(self%part))], &
+                            [(self%part(i)%scene%capacity%smallest_gap, i=1, size(self%part))], arrays)
+  end subroutine add_shaft
 
   !> Frees what the solvers hold.
   subroutine discard_machine(self)

@@ -20,7 +20,7 @@ module gfb_orbit_record
     real(wp), allocatable :: turns(:)     !! (steps) of the shaft [1]
     real(wp), allocatable :: motion(:, :) !! (what moves, steps) [m], [rad]
   contains
-    procedure :: see => see_step
+    procedure :: see => see_step, see_motion
     procedure :: turn_began, extents, ends_at
     procedure :: visit => visit_orbit
   end type orbit_record_type
@@ -31,14 +31,27 @@ contains
   pure subroutine see_step(self, march)
     class(orbit_record_type), intent(inout) :: self !! the record
     type(march_type), intent(in) :: march !! at the beginning or after a step
+
+    if (march%drive%bearing_distance > 0.0_wp) then
+      call self%see_motion(march, [march%place(:2, 1), march%place(4:, 1), &
+                                   march%way_in_bearings(march%place(:, 1))], turns_kept)
+    else
+      call self%see_motion(march, march%place(:2, 1), turns_kept)
+    end if
+  end subroutine see_step
+
+  !> The same of whatever moves.
+  pure subroutine see_motion(self, march, motion, kept)
+    class(orbit_record_type), intent(inout) :: self !! the record
+    type(march_type), intent(in) :: march !! its time
+    real(wp), intent(in) :: motion(:) !! now, as many numbers at each step [m], [rad]
+    real(wp), intent(in) :: kept !! turns at the end that are not dropped [1]
     integer :: old
 
-    if (.not. allocated(self%time)) then
-      call make_room(self, merge(8, 2, march%drive%bearing_distance > 0.0_wp), 256)
-    end if
+    if (.not. allocated(self%time)) call make_room(self, size(motion), 256)
     if (self%steps == size(self%time)) then
       ! Two steps before those turns: a parabola needs them.
-      old = max(0, count(self%turns(:self%steps) < march%turns() - turns_kept) - 2)
+      old = max(0, count(self%turns(:self%steps) < march%turns() - kept) - 2)
       call shift(self, old)
       if (2*self%steps > size(self%time)) then
         call make_room(self, size(self%motion, 1), 2*size(self%time))
@@ -47,12 +60,8 @@ contains
     self%steps = self%steps + 1
     self%time(self%steps) = march%time
     self%turns(self%steps) = march%turns()
-    self%motion(:2, self%steps) = march%place(:2, 1)
-    if (size(self%motion, 1) > 2) then
-      self%motion(3:4, self%steps) = march%place(4:, 1)
-      self%motion(5:, self%steps) = pack(march%way_in_bearings(march%place(:, 1)), .true.)
-    end if
-  end subroutine see_step
+    self%motion(:, self%steps) = motion
+  end subroutine see_motion
 
   !> Drops the oldest steps.
   pure subroutine shift(self, old)

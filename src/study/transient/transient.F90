@@ -12,7 +12,7 @@ module gfb_transient
   use gfb_orbit_record, only: plane_motion, tilt_motion
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
-  use gfb_motion_cases, only: duration_of
+  use gfb_motion_cases, only: duration_of, transient_case_type
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_run_log, only: run_log_type
   use gfb_operating_point, only: operating_point_type
@@ -35,6 +35,7 @@ module gfb_transient
   use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading, refuse_restart
   implicit none (type)
   private
+  public :: is_field_time
 
   real(wp), parameter :: shortest = 0.01_wp !! step of the way there [1]
 
@@ -159,29 +160,35 @@ contains
     type(grid_series_type), intent(inout) :: series !! may get a step
     type(result_grid_type), allocatable :: grids(:)
 
-    associate (interval => scene%transient%field_interval, start => scene%transient%field_start)
-      if (.not. interval > 0.0_wp) return
-      if (march%steps == 0) then
-        if (start > 0.0_wp) return
-      else if (passed(march%time) == passed(march%time - march%step)) then
-        return
-      end if
-    end associate
+    if (.not. is_field_time(scene%transient, march)) return
     allocate (grids(0))
     call add_film_grid(bearing, scene%output, grids)
     if (size(grids) == 0) return ! no field is asked for
     call add_foil_grids(bearing, grids)
     call add_series_step(series, 'time', 's', march%time, grids)
+  end subroutine keep_fields
+
+  !> Whether fields are kept at the present state: at the beginning, and by the first step that reaches each chosen time.
+  pure logical function is_field_time(transient, march) result(is)
+    type(transient_case_type), intent(in) :: transient !! what `&transient` asks for
+    type(march_type), intent(in) :: march !! at the beginning or after a step
+
+    is = transient%field_interval > 0.0_wp
+    if (.not. is) return
+    is = march%steps == 0 .and. .not. transient%field_start > 0.0_wp
+    if (march%steps > 0) is = passed(march%time) /= passed(march%time - march%step)
+
   contains
+
     !> Chosen times until this one.
     pure integer function passed(time) result(times)
       real(wp), intent(in) :: time !! [s]
       real(wp) :: intervals
 
-      intervals = (time - scene%transient%field_start)/scene%transient%field_interval
+      intervals = (time - transient%field_start)/transient%field_interval
       times = max(0, floor(intervals + round_off) + 1)
     end function passed
-  end subroutine keep_fields
+  end function is_field_time
 
   !> Follows the shaft from an equilibrium, or a given position; or on from where a restart file has left it.
   !>

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 
+from gfb.bearing_files import copied, names_of
 from gfb.bench.runs import last_words
 from gfb.case import Case
 from gfb.program import DONE, ENVIRONMENT, NOT_CONVERGED, WRONG_INPUT, call, command_of
@@ -34,6 +35,7 @@ class Task:
     text: str
     options: tuple = ()
     restart: bool = False  # a second run goes on where the first one ended
+    files: tuple = ()      # (name, text) of what it names, such as a machine's bearings
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,6 +55,11 @@ def tasks(small):
         text = (every_input.INPUTS/f"{name.partition(':')[0]}.nml").read_text(encoding="utf-8")
         changes = every_input.changes_of(name, not small)
         made.append(Task(name.replace(":", "_"), every_input.changed(text, changes) if changes else text))
+    for path in sorted((every_input.INPUTS/"machines").glob("*.nml")):
+        text = path.read_text(encoding="utf-8")
+        if names_of(text):
+            text, files = copied(text, path.parent, path.stem)
+            made.append(Task(path.stem, text, files=tuple(files.items())))
     return made
 
 
@@ -91,7 +98,8 @@ def kept_run(program, task, store):
 def run(program, task, folder):
     """Runs a task in a new folder, on one rank; the last file that is written says how it ended."""
     folder.mkdir(parents=True)
-    (folder/f"{task.name}.nml").write_text(task.text, encoding="utf-8")
+    for name, text in ((f"{task.name}.nml", task.text), *task.files):
+        (folder/name).write_text(text, encoding="utf-8")
     begun = time.monotonic()
     statuses = [run_once(program, task, folder, ())]
     if task.restart:

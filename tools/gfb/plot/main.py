@@ -26,6 +26,9 @@
   tools/plot CASE.film.steps.vtkhdf     a step of a sweep's film or foils, the last one or that of --step
   tools/plot --3d CASE.h5               film and foils of all pads in space; of a journal beside the picture CASE.3d.vtkhdf for ParaView
   tools/plot --animate CASE.h5          moving picture of a sweep's film, or else of an orbit: a GIF, with -o NAME.mp4 an MP4
+  tools/plot CASE.h5                    of a machine: to scale, with its static line and moments
+      --show shapes, campbell             its modes in space; frequencies and decrements over the speed, of a sweep
+      --show response, critical           to unbalance; undamped critical speeds over the stiffness of bearings
   tools/plot CASE.h5                    of analysis = 'transient': orbit, a small one once more and larger, and thinnest film over time
   tools/plot CASE.h5                    of analysis = 'periodic': the branch over its parameter, and its orbits
       --show orbit, thinnest              each alone
@@ -50,7 +53,7 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
 from gfb.files import fresh  # noqa: E402
-from gfb.plot import animation, dynamics, foil, heat, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot import animation, dynamics, foil, heat, machine, machine_motions, machine_time, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.colours import round_numbers  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, step_words  # noqa: E402
@@ -58,6 +61,7 @@ from gfb.results import BROKEN, Unreadable, attribute, open_results, reading, us
 
 USUAL = ("minimum_gap", "attitude_angle", "maximum_pressure", "friction_torque")
 USUAL_OF_TILT = ("torque_x", "torque_y", "minimum_gap", "maximum_pressure")
+USUAL_OF_MACHINES = ("minimum_gap_", "power_loss_", "growth_rate", "whirl_frequency")
 USUAL_OF_LIMITS = {  # what is looked for, and what it makes of the bearing
     "load_capacity": ("load_capacity", "load_capacity_coefficient", "attitude_angle", "friction_torque"),
     "lift_off_speed_rpm": ("lift_off_speed_rpm", "minimum_gap", "attitude_angle", "friction_torque"),
@@ -79,7 +83,7 @@ def main():
                         help="the picture; default: beside the file, its name with what is shown and .png")
     parser.add_argument("--list", action="store_true", help="print the history's columns or a foil's fields, and stop")
     parser.add_argument("--together", action="store_true", help="columns of one unit in one chart")
-    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, polar.KIND, heat.KIND, *rotor.KINDS, *transient.KINDS),
+    parser.add_argument("--show", choices=(*strip.KINDS, dynamics.KIND, polar.KIND, heat.KIND, *rotor.KINDS, *transient.KINDS, *machine_motions.DRAWN),
                         help="what of a strip's or bearing's CASE.h5; polar, heat: of CASE.film.vtkhdf, too")
     parser.add_argument("--3d", action="store_true", dest="rolled", help="film and foils in space")
     parser.add_argument("--picture-only", action="store_true", help="with --3d: no CASE.3d.vtkhdf")
@@ -162,13 +166,17 @@ def draw(options, paths, files):
     if options.show in transient.KINDS or transient.is_transient(file) and not (options.show or options.columns):
         if len(files) > 1 or options.step or options.columns:
             stop("a shaft's motion is drawn of one file, without --step and columns")
-        return transient.draw(path, file, options.show)
+        return (machine_time if machine.is_machine(file) else transient).draw(path, file, options.show)
     if options.show == polar.KIND:
         return draw_polar(options, path, file)
     if options.show == heat.KIND:
         return draw_heat(options, path, file)
     if periodic.is_periodic(file) and not (options.show or options.step or options.columns) and len(files) == 1:
         return periodic.draw(path, file)
+    if options.show in machine_motions.DRAWN or options.show == "campbell" and machine.is_machine(file) or is_machine_at_rest(options, file):
+        if len(files) > 1 or options.step or options.columns:
+            stop("a machine is drawn of one file, without --step and columns")
+        return (machine_motions.DRAWN | {"campbell": machine_motions.draw_campbell})[options.show or machine.KIND](path, file)
     of_strips = options.show or options.step or len(files) > 1
     if of_strips and options.columns:
         stop("columns are drawn of one file, without --show and --step")
@@ -191,6 +199,11 @@ def draw(options, paths, files):
     if "history" in file:
         return draw_history(path, file, options.columns, options.together)
     return stop(f"{path}: neither a film or foil file nor a case file of gfb")
+
+
+def is_machine_at_rest(options, file):
+    """Whether a machine of one point is drawn unasked."""
+    return machine.is_machine(file) and not (options.show or options.columns or len(file["history"]))
 
 
 def drawing_of(file):
@@ -287,6 +300,8 @@ def draw_history(path, file, columns, together=False):
         if not alone:
             usual = next((names for limit, names in USUAL_OF_LIMITS.items() if limit in history), usual)
         columns = [name for name in usual if name in history]
+        if not columns:  # of a machine: each result of each bearing
+            columns = [name for name in history if name.startswith(USUAL_OF_MACHINES)]
         if not columns:
             stop(f"{path}: none of the usual columns is in it; name some, --list prints them")
     unknown = [name for name in columns if name not in history]

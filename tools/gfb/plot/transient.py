@@ -184,14 +184,16 @@ def draw_waterfall(chart, history, _):
     lines = list(zip(found["frequency"], MICRO*found[place]))
     least, highest = LEAST*speeds.min()/60.0, HIGHEST*speeds.max()/60.0
     shown = [(frequency[seen], line[seen]) for frequency, line in lines for seen in [(frequency <= highest) & (frequency > least)]]
-    turns = f"of e_y{journals(history)[0][0]} over {speeds[0]/60.0/lines[0][0][1]:.0f} turns"
+    what = history.get("of") or f"e_y{journals(history)[0][0]}"
+    turns = f"of {what} over {speeds[0]/60.0/lines[0][0][1]:.0f} turns"
     chart.set(xlabel="frequency [Hz]", xlim=(0.0, highest))
     if len(lines) == 1:
         draw_spectrum(chart, *shown[0], speeds[0])
+        chart.set_ylabel(f"amplitude of {what} [um]")
         chart.set_title(f"spectrum {turns}", fontsize=10)
     else:
         largest = max(line.max(initial=0.0) for _, line in shown) or 1.0
-        draw_spectra(chart, shown, speeds, times, largest)
+        draw_spectra(chart, shown, speeds, times, largest, what)
         chart.set_title(f"spectra {turns} each; highest peak {largest:.3g} um", fontsize=10)
     chart.legend(fontsize=8)
 
@@ -201,10 +203,9 @@ def draw_spectrum(chart, frequency, line, speed):
     chart.plot(frequency, line, color="C0", linewidth=0.9)
     for ratio, name, style in RATIOS:
         chart.axvline(ratio*speed/60.0, linestyle=style, color="C3", linewidth=1.0, label=f"{name} speed")
-    chart.set_ylabel("amplitude of e_y [um]")
 
 
-def draw_spectra(chart, lines, speeds, times, largest):
+def draw_spectra(chart, lines, speeds, times, largest, what):
     """Several: the height of each is the root of the amplitude, so that unbalance is seen beside whirl."""
     steady = numpy.ptp(speeds) <= STEADY*speeds.max()
     bases = times if steady else speeds
@@ -222,7 +223,7 @@ def draw_spectra(chart, lines, speeds, times, largest):
     values = numpy.array([0.0, *sorted({round_down(share*largest) for share in (1.0, 0.25, 0.05)})])
     axis = chart.secondary_yaxis("right")
     axis.set_yticks(bases.min() + scale*numpy.sqrt(values), [f"{value:g}" for value in values], fontsize=7)
-    axis.set_ylabel("amplitude of e_y [um], root scale from each line's foot; ticks at the lowest line", fontsize=8, loc="bottom")
+    axis.set_ylabel(f"amplitude of {what} [um], root scale from each line's foot; ticks at the lowest line", fontsize=8, loc="bottom")
 
 
 def round_down(value):

@@ -14,8 +14,9 @@ THINNEST = "thinnest film"
 class Results:
     """Results and keys of one run."""
 
-    def __init__(self, summary, case, place=None, frequency=None):
+    def __init__(self, summary, case, place=None, frequency=None, machine=None):
         self.summary, self.case = summary, case
+        self.machine = machine      # of a machine: what stands in its file alone
         self.place = place          # of the thinnest film
         self.frequency = frequency  # of stiffness and damping [rad/s]
 

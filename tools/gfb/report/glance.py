@@ -4,13 +4,17 @@ is measured against."""
 import math
 
 from gfb.report.answer import KELVIN, THINNEST, Results, direction, place_words
-from gfb.report.verdict import FILM, ONSET, all_margins
+from gfb.report.machine import is_machine, machine_glance
+from gfb.report.margin import ONSET
+from gfb.report.verdict import FILM, HEAT, STRESS, all_margins
 
 
-def glance(summary, case, place=None, frequency=None):
+def glance(summary, case, place=None, frequency=None, machine=None):
     """(what, how much, margin or verdict, whether that is a bad one) of one run; place: where its film is thinnest; frequency: of its
-    stiffness and damping [rad/s]."""
-    results = Results(summary, case, place, frequency)
+    stiffness and damping [rad/s]; machine: tables of a machine."""
+    results = Results(summary, case, place, frequency, machine)
+    if is_machine(case):
+        return list(machine_glance(results))
     return [row for question in (film, centre, load, limits, losses, balance, vibrations, rotor, foils, heat) for row in question(results)]
 
 
@@ -52,7 +56,14 @@ def load(results):
 
 def against(results, name):
     """What a result is measured against and by how much it keeps that, and whether it breaks it."""
-    return next(((one.against, one.is_broken) for one in all_margins(results) if one.result == name), ("", False))
+    return next(((f"{one.against}{f' ({one.where})' if one.where else ''}", one.is_broken) for one in all_margins(results) if one.result == name), ("", False))
+
+
+def allowed(results, name):
+    """A row of what the case allows, and how far it is kept; nothing where the case says nothing."""
+    for one in all_margins(results):
+        if one.result == name:
+            yield f"allowed {one.subject}", one.value, *against(results, name)
 
 
 def limits(results):
@@ -124,6 +135,7 @@ def foils(results):
     for words, name in (("largest stress of the top foil", "maximum_top_foil_stress"), ("largest stress of the bumps", "maximum_bump_foil_stress")):
         if results.value(name) is not None:
             yield words, results.words(name), "von Mises", False
+    yield from allowed(results, STRESS)
 
 
 def heat(results):
@@ -131,6 +143,7 @@ def heat(results):
     for words, name in (("hottest film", "maximum_film_temperature"), ("shaft", "shaft_temperature"), ("sleeve", "sleeve_temperature")):
         if results.value(name) is not None:
             yield words, f"{results.value(name) - KELVIN:.4g} °C", "", False
+    yield from allowed(results, HEAT)
     if results.value("running_clearance") is not None:
         cold = results.key("bearing%clearance")
         yield "clearance when it runs", results.words("running_clearance"), f"{1.0e6*cold:.4g} um cold" if cold else "", False

@@ -17,6 +17,7 @@ import tempfile
 import jinja2
 import numpy
 
+from gfb.bearing_files import names_of, renamed
 from gfb.case import Case
 from gfb.files import fresh
 from gfb.heat import HEATED, balance
@@ -24,6 +25,7 @@ from gfb.look import FONT
 from gfb.program import call, find_program
 from gfb.report.answer import LAST_STATE, Results, ended
 from gfb.report.glance import glance
+from gfb.report.machine import is_machine, machine_picture, read_tables, sizes_of
 from gfb.report.sensitivities import sensitivities
 from gfb.report.sketch import sketch
 from gfb.report.thinnest import place_of_thinnest
@@ -37,7 +39,10 @@ PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).
 PAGE.globals |= {"font": FONT, "colour_of": colour_of, "last_state": LAST_STATE}
 ENDINGS = (".h5", ".summary")
 SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
+OF_MACHINES = {"machine": "the machine to scale, its static line, moments along it", "shapes": "its modes in space", "response": "response to unbalance",
+               "critical": "undamped critical speeds over the stiffness of the bearings"}
 SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency", "campbell": "the rotor's modes over the speed"}
+OVER_POINTS = ("campbell", "response")  # pictures of a machine's sweep
 SECONDS = 300     # no picture takes that long
 MOST_ROWS = 400   # of a table of points
 SAME = 1.0e-9     # of the largest result of a unit: numbers that differ less are one
@@ -111,26 +116,31 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         points = len(table[heads[0][0]]) if heads else 0
         swept = {name: float(data[points - 1]) for name, data in table.items()} if points else {}
         case_file = text_of(file["scene/case_file"][()])
+        bearings = [text_of(file[f"scene/bearing_{number}"][()]) for number in range(1, MOST_ROWS) if f"scene/bearing_{number}" in file]
         used = Case.parse(text_of(file["scene/used"][()]))
         origin = {name: text_of(data[()]) for name, data in file["provenance"].items()}
-        shows = [name for name in ("contact", "dynamics", "transient") if name in file] + ["heat"]*(HEATED in table) + ["ring"]*("axial_gap" in table)
+        machine = read_tables(file, used)
+        shows = [name for name in ("contact", "dynamics", "transient") if name in file and not (machine and name == "dynamics")] + ["heat"]*(HEATED in table) + ["ring"]*("axial_gap" in table)
         shows += ["campbell"]*("speed_rpm" in table and "dynamics/mode_frequency" in file)
+        shows += ["machine"]*bool(machine) + ["shapes"]*(machine is not None and "dynamics/mode_shape" in file)
+        shows += ["response"]*(machine is not None and "dynamics/response" in file) + ["critical"]*(machine is not None and len(machine.bearings) > 1)
         rows = [[number(history[name][row]) for name, _ in heads] for row in range(min(points, MOST_ROWS))]
         converged = bool(summary["converged"]["value"])
         frequency = float(numpy.atleast_2d(file["dynamics/frequency"][...])[-1, 0]) if "dynamics/frequency" in file else None
     with reading(path):  # of a file that is not gfb's, too
         place = place_of_thinnest(stem, summary)
-        found = Results(summary, used, place)
+        found = Results(summary, used, place, machine=machine)
+        drawn_case = machine_picture(used, sizes_of(machine)) if is_machine(used) else sketch(summary, used, place)
         margins = margins_of(found)
-        about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency), "sketch": sketch(summary, used, place), "place": place, "heat": heat_rows(summary),
+        about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency, machine), "sketch": drawn_case, "place": place, "heat": heat_rows(summary),
                  "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
-        pad = place.pad if place else thinnest_pad(summary)
-    drawings = pictures_of(stem, points, shows, curve, pad) if pictures else []
+        pad = place.pad if place else 0 if machine else thinnest_pad(summary)
+    drawings = pictures_of(stem, points, shows, curve, pad, len(machine.bearings) if machine else 0) if pictures else []
     why = "" if converged else ended(summary)
     return about | {
         "verdict": sentence(margins, why, about["open_questions"]), "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
         "converged": converged, "ended": why, "heads": heads, "rows": rows if points > 1 else [], "left_out": max(0, points - MOST_ROWS),
-        "case_file": case_file, "used": used, "origin": origin, "needs": needs_of(case_file, gfb) if pictures else "", "pictures": drawings}
+        "case_file": case_file, "bearing_files": bearings, "amplitudes": machine.over_points if machine else None, "used": used, "origin": origin, "needs": needs_of(case_file, gfb, bearings) if pictures else "", "pictures": drawings}
 
 
 def swept_keys(case, last):
@@ -167,10 +177,15 @@ def number(value):
     return "" if value != value else f"{value:.6g}"
 
 
-def needs_of(case_file, gfb):
-    """What gfb --check says of the scene, on this machine."""
+def needs_of(case_file, gfb, bearings=()):
+    """What gfb --check says of the scene, on this machine; bearings: texts of the files that a machine names."""
     try:
-        done = call([find_program(gfb), "--check", "-"], SECONDS, text=case_file)
+        with tempfile.TemporaryDirectory() as folder:
+            names = [f"bearing_{number}.nml" for number in range(1, len(bearings) + 1)]
+            for name, text in zip(names, bearings):
+                pathlib.Path(folder, name).write_text(text, encoding="utf-8")
+            done = call([find_program(gfb), "--check", "-"], SECONDS, folder=folder if bearings else None,
+                        text=renamed(case_file, names) if len(names_of(case_file)) == len(names) else case_file)
     except (FileNotFoundError, subprocess.TimeoutExpired) as error:
         return f"not known: {error}"
     return (done.log + done.complaint).strip()
@@ -184,7 +199,7 @@ def thinnest_pad(summary):
     return min(gaps, key=lambda pad: gaps[pad]) if gaps else 0
 
 
-def pictures_of(stem, points, shows, curve=False, pad=0):
+def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0):
     """Title and picture of everything that tools/plot draws of a result, or of its points or time alone; what it cannot draw is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
     which = f"pad {pad}, where the film is thinnest" if pad else "pad 1"
@@ -199,11 +214,16 @@ def pictures_of(stem, points, shows, curve=False, pad=0):
             wanted.append(("heat at the last point", [f"{stem}.h5", "--show", "heat", "--step", str(points)]))
     if "transient" in shows:
         wanted.append(("orbit and thinnest film", [f"{stem}.h5"]))
+        wanted += [("thinnest films over time", [f"{stem}.h5", "--show", "thinnest"])]*(bearings > 0)
     elif points > 1:
         wanted.insert(0, ("along the points or load steps", [f"{stem}.h5"]))
+    wanted[:0] = [(words, [f"{stem}.h5", "--show", show]) for show, words in OF_MACHINES.items() if show in shows]
+    for bearing in range(1, bearings + 1):
+        wanted += [(f"{words} of bearing {bearing}", [f"{stem}.bearing_{bearing}.film.vtkhdf", *more])
+                   for words, more in (("the film", []), ("pressure and film thickness around the shaft", ["--show", "polar"]))]
     wanted += [(words, [f"{stem}.h5", "--show", show]) for show, words in SHOWN.items() if show in shows]
     if curve and (points > 1 or "transient" in shows):
-        wanted = [one for one in wanted if one[1] == [f"{stem}.h5"]]
+        wanted = [one for one in wanted if one[1] == [f"{stem}.h5"] or bearings and one[1][-1] in OVER_POINTS]
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder)/"picture.png"
         there = [(words, arguments) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]

@@ -5,6 +5,7 @@ import itertools
 import math
 
 from gfb.report.answer import THINNEST, Results, direction, is_number
+from gfb.report.sketch_lines import ROOM, SIDE, TURN, Drawing, arc_of, circle, line, place
 
 SHAFT, RING, BAND = 64.0, 85.0, 5.0  # radius of a shaft, outer radius of sectors, thickness of a sleeve
 # What is drawn larger: by how many times, unless it comes out lower or higher than these two.
@@ -12,60 +13,8 @@ GAP, BUMP, STEP = (100.0, 2.0, 14.0), (3.0, 2.0, 6.0), (200.0, 3.0, 16.0)  # cle
 FARTHEST = 24.0    # of a surface from the shaft
 LAND, RUNNER = 104.0, 8.0  # of a pad that is cut: height of its land, and of the gap over it
 WIDE = 200.0       # of the view along the axis; to its right stands the one from the side
-SIDE, ROOM = 212.0, 130.0  # where that begins, and how wide it is
-LINE = 14.0        # of words
-MOST_POINTS = 96   # of an arc
 MOST_PADS = 1000   # that are drawn: more are none of gfb
 MOST_BUMPS = 2000  # of all pads together
-TURN = 2.0*math.pi
-
-
-class Drawing:
-    """The lines of a picture: (look, groups of the case file that they are of, SVG path), and words below it: (look, words)."""
-
-    def __init__(self, low=202.0):
-        self.shapes, self.notes, self.low = [], [], low
-
-    def picture(self, wide):
-        """What the template has."""
-        notes = [(look, words) for look, words in self.notes if words]
-        return {"shapes": self.shapes, "texts": [(0.5*wide, self.low + LINE*i, look, words) for i, (look, words) in enumerate(notes)],
-                "width": wide, "height": self.low + LINE*len(notes) - 6.0}
-
-    def add(self, look, groups, path):
-        """One more line, or area."""
-        self.shapes.append((look, groups, path))
-
-    def arrow(self, look, groups, begin, end):
-        """A line with a head."""
-        (x, y), (u, v) = begin, end
-        far = math.hypot(u - x, v - y) or 1.0
-        along = ((u - x)/far, (v - y)/far)
-        back = (u - 7.0*along[0], v - 7.0*along[1])
-        sides = [(back[0] - 4.0*sign*along[1], back[1] + 4.0*sign*along[0]) for sign in (1.0, -1.0)]
-        self.add(f"{look} line", groups, line([begin, back]))
-        self.add(look, groups, line([sides[0], end, sides[1]], True))
-
-
-def line(points, closed=False):
-    """An SVG path through points."""
-    return "M" + " L".join(f"{x:.1f},{y:.1f}" for x, y in points) + " Z"*closed
-
-
-def place(radius, angle):
-    """A point of the view along the axis, which is 200 x 200: x to the right, y up."""
-    return 100.0 + radius*math.cos(angle), 100.0 - radius*math.sin(angle)
-
-
-def arc_of(radius, begin, angle):
-    """Points of an arc; the radius is a number, or one at each angle."""
-    many = max(2, math.ceil(MOST_POINTS*abs(angle)/TURN))
-    return [place(radius(begin + angle*i/many) if callable(radius) else radius, begin + angle*i/many) for i in range(many + 1)]
-
-
-def circle(x, y, radius):
-    """An SVG path around a point."""
-    return f"M{x - radius:.1f},{y:.1f} a{radius},{radius} 0 1 0 {2.0*radius},0 a{radius},{radius} 0 1 0 {-2.0*radius},0 Z"
 
 
 def factor_of(size, usual, low, high):

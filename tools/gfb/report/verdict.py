@@ -10,56 +10,13 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from gfb.report.answer import KELVIN, Results, carried_by, film_words, place_words
+from gfb.report.machine import is_machine, left_open, machine_margins
+from gfb.report.margin import ONSET, Margin, compared
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
 AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
-NO_ANSWER = "no answer"  # of a part of a study
-ONSET = "onset_speed_rpm"
-FILM = "film_margin"
-SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known", "missing": "✗ no answer"}
-
-
-@dataclasses.dataclass
-class Margin:
-    """One thing that may limit a bearing."""
-
-    subject: str                   # in a word or two
-    value: str                     # how it is, in words
-    limit: str = ""                # against what, in words; empty where none is known
-    factor: float | None = None    # how many times the limit is kept, below 1 broken; None: it is, or is not
-    is_broken: bool = False
-    where: str = ""                # part of a study
-    result: str = ""               # its name, where it is one result that is compared
-
-    @property
-    def state(self) -> str:
-        """Which of SIGNS."""
-        return "missing" if self.limit == NO_ANSWER else "broken" if self.is_broken else "kept" if self.limit else "unknown"
-
-    @property
-    def sign(self) -> str:
-        """The state in words, which need no colour."""
-        return SIGNS[self.state]
-
-    @property
-    def times(self) -> str:
-        """The margin in words."""
-        return f"{self.factor:.3g} times" if self.factor is not None else ""
-
-    @property
-    def against(self) -> str:
-        """The limit and the margin in words."""
-        return ": ".join(filter(None, (self.limit, self.times)))
-
-    def words(self) -> str:
-        """All of it."""
-        needed = "" if self.factor is None else f": {self.factor:.3g} {'of' if self.is_broken else 'times'} what is needed"
-        return f"{self.value}{f' ({self.where})' if self.where else ''}, {self.limit}{needed}"
-
-
-def compared(subject: str, value: str, limit: str, factor: float, where: str = "", result: str = "") -> Margin:
-    """What is kept by a factor of 1 and more."""
-    return Margin(subject, value, limit, factor, not factor >= 1.0, where, result)
+FILM, HEAT, STRESS = "film_margin", "temperature_margin", "stress_margin"
+WORST = "at the worst point"  # of a sweep
 
 
 def margins_of(results: Results, smallest_gap: float | None = None) -> list[Margin]:
@@ -70,6 +27,8 @@ def margins_of(results: Results, smallest_gap: float | None = None) -> list[Marg
 
 def all_margins(results: Results, smallest_gap: float | None = None) -> list[Margin]:
     """The same, of a sweep those of its last point beside those of all points."""
+    if is_machine(results.case):
+        return machine_margins(results)
     found = list(film(results, smallest_gap))
     for question in (load, lift_off, whirl, foils, misalignment, temperature, stress):
         found += question(results)
@@ -77,10 +36,15 @@ def all_margins(results: Results, smallest_gap: float | None = None) -> list[Mar
 
 
 def at_last_point(margins: list[Margin]) -> list[Margin]:
-    """Those of a sweep: an onset is of all points, and stands for the whirl of the last one, which may lie beyond the case's speed."""
+    """Those of a sweep: what gfb compared itself is of its worst point; an onset is of all points, and stands for the whirl of the last one, which may lie beyond the case's speed."""
     onset = [one for one in margins if one.result == ONSET]
     others = [one for one in margins if one not in onset and not (onset and one.subject == "whirl")]
-    return [*onset, *(dataclasses.replace(one, where="at the last point") for one in others)]
+    return [*onset, *(dataclasses.replace(one, where=one.where or "at the last point") for one in others)]
+
+
+def worst_factor(results: Results, name: str) -> float | None:
+    """A margin that gfb found at the worst point of a sweep; None where there is no sweep, or no such margin."""
+    return results.value(name) if "sweep" in results.case.groups else None
 
 
 def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
@@ -92,7 +56,10 @@ def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
     words = film_words(gap, place_words(results) if over_time is None else "")
     clearance, touch_down = results.key("bearing%clearance", 0.0) or 0.0, results.key("solver%touch_down_gap", 0.0) or 0.0
     given = smallest_gap or results.key("capacity%smallest_gap")
-    if given and given > 0.0:
+    factor = None if smallest_gap else worst_factor(results, FILM)
+    if given and factor is not None:
+        yield compared("film", film_words(factor*given), f"{1.0e6*given:.3g} um are wanted", factor, WORST, FILM)
+    elif given and given > 0.0:
         yield compared("film", words, f"{1.0e6*given:.3g} um are wanted", gap/given, result=FILM)
     elif clearance > 0.0 and touch_down > OWN_TOUCH_DOWN*clearance:
         yield compared("film", words, f"below {1.0e6*touch_down:.3g} um it touches down", gap/touch_down)
@@ -146,9 +113,11 @@ def foils(results: Results) -> Iterator[Margin]:
 
 def not_computed(results: Results, margins: Sequence[Margin]) -> list[str]:
     """What may limit such a bearing, too, and was not asked for."""
+    there = {one.subject for one in margins}
+    if is_machine(results.case):
+        return left_open(results, there)
     if results.value("minimum_gap") is None:
         return []
-    there = {one.subject for one in margins}
     apply = {"whirl": results.value("axial_gap") is None, "misalignment": True, "temperature": True,
              "stress": results.case.get("model%foil") in ("shell", "beam", "plate")}
     return [subject for subject, applies in apply.items() if applies and subject not in there]
@@ -162,17 +131,39 @@ def misalignment(results: Results) -> Iterator[Margin]:
 
 
 def temperature(results: Results) -> Iterator[Margin]:
-    """How hot the film is; no case says how hot it may be."""
-    hottest = results.value("maximum_film_temperature")
-    if hottest is not None:
-        yield Margin("temperature", f"hottest film {hottest - KELVIN:.4g} °C")
+    """How hot film and top foil are, against what the case allows: the factor is that of the rise over the gas around."""
+    film = results.value("maximum_film_temperature")
+    if film is None:
+        return
+    limit, ambient = results.key("capacity%highest_temperature"), results.key("thermal%ambient_temperature", 20.0 + KELVIN) or 0.0
+    if limit is None:
+        yield Margin("temperature", f"hottest film {film - KELVIN:.4g} °C")
+        return
+    hottest = max(film, results.value("maximum_top_foil_temperature") or film)
+    factor = worst_factor(results, HEAT)
+    where = "" if factor is None else WORST
+    if factor is not None:
+        hottest = ambient + (limit - ambient)/factor
+    words, allowed = f"film and top foil at most {hottest - KELVIN:.4g} °C", f"{limit - KELVIN:.4g} °C are allowed"
+    if hottest > ambient:
+        yield compared("temperature", words, allowed, (limit - ambient)/(hottest - ambient), where, HEAT)
+    else:
+        yield Margin("temperature", words, allowed, where=where, result=HEAT)
 
 
 def stress(results: Results) -> Iterator[Margin]:
-    """The largest stress; no key has a strength."""
+    """The largest stress, against what the case allows."""
     most = [value for value in map(results.value, ("maximum_top_foil_stress", "maximum_bump_foil_stress")) if value is not None]
-    if most:
-        yield Margin("stress", f"largest stress {1.0e-6*max(most):.4g} MPa")
+    if not most:
+        return
+    largest, limit, factor = max(most), results.key("capacity%largest_stress"), worst_factor(results, STRESS)
+    if limit and factor:
+        largest = limit/factor
+    words = f"largest stress {1.0e-6*largest:.4g} MPa"
+    if limit and largest > 0.0:
+        yield compared("stress", words, f"{1.0e-6*limit:.4g} MPa are allowed", limit/largest, WORST if factor else "", STRESS)
+    else:
+        yield Margin("stress", words)
 
 
 # --- the sentence ---
@@ -197,7 +188,7 @@ def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequenc
     words = []
     if broken:
         first, others = broken[0], list(dict.fromkeys(one.subject for one in broken if one.subject != broken[0].subject))
-        words.append(f"{first.subject.capitalize()} limits this bearing: {first.words()}." + (f" Broken, too: {', '.join(others)}." if others else ""))
+        words.append(f"{first.subject.capitalize()} limits this {first.body}: {first.words()}." + (f" Broken, too: {', '.join(others)}." if others else ""))
     elif kept:
         near = min(kept, key=lambda one: math.inf if one.factor is None else one.factor)
         words.append(f"All known limits are kept; {near.subject} is nearest to its own: {near.words()}." if len(kept) > 1

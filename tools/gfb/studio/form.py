@@ -5,6 +5,8 @@ import dataclasses
 from nicegui import ui
 
 from gfb.studio.checking import Message
+from gfb.studio.rows import COUNTED
+from gfb.studio.table import Table
 from gfb.tables import ALSO_TYPED, READABLE, TYPED
 
 GIVEN, NOT_GIVEN = "", "not in the case"
@@ -99,6 +101,7 @@ class Group:
     def __init__(self, name, keys, change, leave_out):
         self.name, self.keys, self.change, self.leave_out = name, keys, change, leave_out
         self.fields, self.values, self.is_given = {}, {}, False
+        self.table = None  # of a group of lists
         self.no_use, self.words_found, self.shows_all = {}, [], False
         self.messages: tuple[Message, ...] = ()
         self.box = ui.expansion(f"&{name}", caption=NOT_GIVEN, on_value_change=self.opened).classes("group").mark(f"group {name}")
@@ -109,10 +112,13 @@ class Group:
         if event.value and not self.fields:
             with self.box:
                 self.words = ui.column().classes("said")
+                self.table = Table(self.name, self.keys, self.change) if self.name in COUNTED else None
                 with ui.element("div").classes("fields"):
                     self.fields = {name: Field(key, self.values.get(name), self.change) for name, key in self.keys.items()}
                 self.out = ui.button(f"leave &{self.name} out", on_click=lambda: self.leave_out(self.name)).props("flat dense no-caps")
                 self.out.set_visibility(self.is_given)
+            if self.table:
+                self.table.show(self.values)
             self.show_messages(self.messages)
             self.fold()
 
@@ -122,6 +128,8 @@ class Group:
         self.values = values or {}
         for name, field in self.fields.items():
             field.show(self.values.get(name))
+        if self.table:
+            self.table.show(self.values)
         if self.fields:
             self.out.set_visibility(self.is_given)
         if begins:
@@ -150,7 +158,7 @@ class Group:
         self.words.clear()
         with self.words:
             for one in self.messages:
-                if one.key not in self.fields:
+                if one.key not in self.fields or one.key in self.in_table():
                     ui.label(one.words).classes("warning" if one.is_warning else "mistake")
 
     def look_for(self, words):
@@ -158,6 +166,10 @@ class Group:
         self.words_found = words
         if self.fold() and words:
             self.box.open()
+
+    def in_table(self):
+        """The keys that are columns of the table."""
+        return self.table.columns if self.table else []
 
     def is_folded(self, name):
         """Whether a key has no use, is not there, and nobody asks for it."""
@@ -171,7 +183,7 @@ class Group:
             seen = [name for name in self.keys if not self.is_folded(name)]
         self.box.set_visibility(bool(seen) or self.is_given and not self.words_found)
         for name, field in self.fields.items():
-            field.input.set_visibility(name in seen)
+            field.input.set_visibility(name in seen and name not in self.in_table())
             field.show_use(self.no_use.get(name, ""))
         return bool(seen)
 

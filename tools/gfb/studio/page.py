@@ -12,8 +12,8 @@ from gfb.case import Case, CaseError
 from gfb.look import HEADER
 from gfb.namelist import namelist_value
 from gfb.report.main import PAGE, svg_of
-from gfb.report.sketch import case_sketch
-from gfb.studio.checking import check, without_use
+from gfb.report.machine import picture_of_case, sizes_of_files
+from gfb.studio.checking import Judged, Message, check, without_use
 from gfb.studio.form import Form
 from gfb.studio.keys import read_keys
 from gfb.studio.results import ResultsView
@@ -182,6 +182,12 @@ class Tab:
         except CaseError as error:
             return complain(error)
         self.known, self.untouched, self.name.value = None, text, analysis
+        for name, content in self.templates.bearings(analysis).items():
+            try:
+                await workers.io_bound(self.folder.write, name.removesuffix(CASE), content, None)
+                ui.notify(f"{name} is written: the machine's bearings", type="positive")
+            except (Refused, OSError):
+                ui.notify(f"the machine's bearings are {name} of this folder")
         self.take(text)
 
     async def open(self, name):
@@ -248,15 +254,22 @@ class Tab:
             self.draw(case)
         except CaseError:
             case = None  # the program says what is wrong with it
-        judged, no_use = await asyncio.gather(check(self.gfb, self.text), without_use(self.gfb, self.text))
+        judged, no_use = await asyncio.gather(self.judge(self.text), without_use(self.gfb, self.text))
         if change == self.changes:
             self.judged = dataclasses.replace(judged, messages=self.form.explain(judged.messages, case))
             self.show_judged(self.judged)
             self.form.show_uses(no_use)
 
+    async def judge(self, text):
+        """Has the program check a text; the files of a machine's bearings are those of the folder."""
+        try:
+            return await check(self.gfb, self.folder.whole(text))
+        except Refused as error:
+            return Judged((Message(str(error), group="bearings", key="files"),), "")
+
     def draw(self, case):
         """The sketch follows the case; half a number leaves the last one."""
-        drawn = case_sketch(case)
+        drawn = picture_of_case(case, sizes_of_files(case, self.folder.read))
         if drawn:
             self.sketch.set_content(svg_of(drawn))
 
@@ -284,7 +297,7 @@ class Tab:
     async def run(self):
         """Runs the case as it stands in the text."""
         text, name = self.text, self.name.value
-        if not (await check(self.gfb, text)).is_right:
+        if not (await self.judge(text)).is_right:
             return complain("the case has mistakes: they stand above the form")
         try:
             await self.runs.start(name, text)

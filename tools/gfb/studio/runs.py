@@ -11,6 +11,8 @@ import signal
 import threading
 import time
 
+from gfb.bearing_files import NAME as OF_BEARING
+from gfb.bearing_files import names_of, renamed
 from gfb.files import Unfit, kept_within, read_text, write_inside
 from gfb.program import DONE, ENVIRONMENT, NOT_CONVERGED, command_of, stem_of
 from gfb.tool import stop
@@ -82,13 +84,34 @@ class Folder:
             except FileExistsError:
                 raise other from None
 
+    def bearings_of(self, text):
+        """{name as typed: text} of the files of bearings that a case names; Refused where they lead out of the folder."""
+        found = {}
+        for name in names_of(text):
+            try:
+                found[name] = self.read(name)
+            except Refused as error:
+                raise Refused(f"{name}: {error}") from error
+        return found
+
+    def whole(self, text):
+        """A case as the program finds the files of its bearings from any other folder; Refused where they lead out of this one,
+        or are not there."""
+        self.bearings_of(text)
+        return renamed(text, [str(self.inside(name)) for name in names_of(text)])
+
     def new_run(self, name, text):
-        """A folder that was not there before, with a case file in it; its path."""
+        """A folder that was not there before, with a case file in it, and those of its bearings; its path."""
+        bearings = self.bearings_of(text)
+        new = {old: OF_BEARING.format(stem=checked(name), number=number) for number, old in enumerate(bearings, 1)}
+        text = renamed(text, [new[old] for old in names_of(text)])
         for number in range(1, MOST_RUNS):
             path = self.path/f"{checked(name)}.run{number}"
             with contextlib.suppress(FileExistsError):
                 path.mkdir()
                 write_inside(path, name + CASE, text, replaces=False)
+                for old, content in bearings.items():
+                    write_inside(path, new[old], content, replaces=False)
                 return path
         raise Refused("there are too many runs of this name")
 
