@@ -229,7 +229,7 @@ contains
       end if
       if (.not. self%reason%is_given()) return
       if (i == 1) first = self%reason
-      if (stop_agreed() .or. .not. speed_rpm > 0.0_wp) exit
+      if (stop_agreed() .or. .not. speed_rpm > 0.0_wp .or. self%machine%heat%present) exit ! a faster shaft is hotter
       if (i == size(higher)) exit
       call context%log%line('no equilibrium at '//text(higher(i)*speed_rpm, 6)//' rpm: '//self%reason%detail)
       call context%log%line('from a higher speed:')
