@@ -655,7 +655,9 @@ module gfb_result_table
     result_type('heat_from_shaft_ends', 'W', number, machine, &
       'heat that leaves the shaft through its ends, with shaft_conductivity'), &
     result_type('heat_from_shaft_surface', 'W', number, machine, &
-      'heat that leaves the shaft through its surface')]
+      'heat that leaves the shaft through its surface'), &
+    result_type('heat_from_discs', 'W', number, machine, &
+      'heat that leaves the shaft through its discs, with heat_conductances')]
 
   type(result_type), parameter :: ensembles(*) = [ &
     result_type('member', '', word, ensemble, 'name of the case file', &

@@ -69,7 +69,7 @@ module gfb_plausible_values
                'thermal%top_foil_temperature thermal%reference_temperature '// &
                'thermal%modulus_temperatures'), &
     range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'machine%shaft_end_temperature '// &
-               'machine%shaft_film_temperature'), &
+               'machine%shaft_film_temperature discs%heat_temperatures'), &
     range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'thermal%cooling_temperature '// &
                'thermal%sleeve_temperature thermal%sleeve_far_temperature'), &
     range_type(300.0_wp, 1.6e4_wp, 'J/(kg K)', 'J/(g K)', 'thermal%specific_heat'), &
@@ -81,6 +81,7 @@ module gfb_plausible_values
                'thermal%shaft_end_conductance machine%shaft_end_conductance'), &
     range_type(0.1_wp, 500.0_wp, 'W/(m K)', 'W/(cm K)', &
                'thermal%shaft_conductivity thermal%foil_conductivity machine%shaft_conductivity'), &
+    range_type(1.0e-3_wp, 1.0e3_wp, 'W/K', 'mW/K', 'discs%heat_conductances'), &
     range_type(0.1_wp, 1.0e4_wp, 'W/(m^2 K)', 'W/(cm^2 K)', 'machine%shaft_film_conductance'), &
     range_type(1.0_wp, 1.0e5_wp, 'W/(m^2 K)', 'W/(cm^2 K)', 'thermal%bump_conductance '// &
                'thermal%channel_conductance thermal%channel_sleeve_conductance'), &

@@ -266,6 +266,7 @@ def check_supports(checks, folder):
 def hot_machine(folder):
     """Two journals and a thrust bearing on a shaft that conducts."""
     content = machine(folder, HOT, thrust=[thrust(folder, heat=HOT)], thrust_positions=[0.01])
+    content["discs"] |= {"heat_conductances": 0.02, "heat_temperatures": 305.0}
     content["machine"] |= {"shaft_conductivity": 20.0, "shaft_end_conductance": (0.05, 0.1), "shaft_end_temperature": (300.0, 320.0)}
     return content
 
@@ -280,16 +281,18 @@ def check_heat(checks, folder):
     checks.below("two ranks: modes", farthest(modes(ranks), modes(answer)), 1.0e-8)
     checks.below("two ranks: temperature", (ranks["shaft_temperature_3"] - answer["shaft_temperature_3"])/30.0, 1.0e-9)
     heat = [answer[f"heat_to_shaft_{i}"] for i in (1, 2, 3)]
-    out = answer["heat_from_shaft_ends"]
+    out = answer["heat_from_shaft_ends"] + answer["heat_from_discs"]
     checks.below("the shaft's heat", (sum(heat) - out)/answer["power_loss"], 1.0e-11)
     z, temperature = array(answer, "shaft/temperature").T
     across = 20.0*math.pi/4.0*0.03**2
     first = temperature[0]
     rod = first + z*0.05*(first - 300.0)/across
-    for flow, position in zip(heat, content["bearings"]["positions"], strict=True):
+    for flow, position in zip(heat + [-answer["heat_from_discs"]], content["bearings"]["positions"] + [0.12], strict=True):
         rod -= numpy.maximum(z - position, 0.0)*flow/across
     checks.below("a rod with sources", numpy.abs(rod - temperature).max()/30.0, 1.0e-11)
     checks.below("its far end", across*(temperature[-1] - temperature[-2])/(z[-1] - z[-2])/(-0.1*(temperature[-1] - 320.0)) - 1.0, 1.0e-9)
+    at_disc = temperature[numpy.abs(z - 0.12).argmin()]
+    checks.below("its disc", answer["heat_from_discs"]/(0.02*(at_disc - 305.0)) - 1.0, 1.0e-11)
     checks.that("bearings are unlike", abs(answer["shaft_temperature_1"] - answer["shaft_temperature_2"]) > 0.1)
     for number, kind in ((2, JOURNAL), (3, THRUST)):
         one, _ = alone(folder, number, answer, kind, 0.0)
@@ -314,6 +317,7 @@ def check_runaway(checks, folder):
     for name in content["bearings"]["files"]:
         text = (folder/name).read_text(encoding="utf-8")
         (folder/name).write_text(text.replace("sleeve_conductance = 0.5", "sleeve_conductance = 0.002"), encoding="utf-8")
+    del content["discs"]["heat_conductances"], content["discs"]["heat_temperatures"]
     del content["machine"]["shaft_end_conductance"], content["machine"]["shaft_end_temperature"]
     content["machine"]["speed_rpm"] = 3.0*SPEED
     answer = solve(folder, "runaway", content, status=2)
@@ -367,6 +371,7 @@ def check_wrong(checks, folder):
                            ("needs shaft_conductivity", {"shaft_conductivity": None}),
                            ("is required with shaft_film_conductance", {"shaft_film_conductance": 10.0})):
         wrong = hot_machine(folder)
+        del wrong["discs"]["heat_conductances"], wrong["discs"]["heat_temperatures"]
         wrong["machine"] = {key: value for key, value in (wrong["machine"] | changed).items() if value is not None}
         checks.that(words, words.split(" ", 1)[1] in solve(folder, "wrong", wrong, status=1).complaint)
     cold = machine(folder)

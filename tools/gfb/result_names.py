@@ -167,6 +167,7 @@ NumberName = Literal[
     "polar_inertia",
     "heat_from_shaft_ends",
     "heat_from_shaft_surface",
+    "heat_from_discs",
     "load",
     "load_angle",
     "speed_rpm",

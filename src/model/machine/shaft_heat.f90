@@ -1,8 +1,8 @@
 !> Heat along the shaft of a machine, which its films feed.
 !>
-!> The shaft conducts along itself, loses heat from its ends, and from its surface where no bearing
-!> is around it. At each bearing it has one temperature under the film. Condensed to these, T, with
-!> the heat q of the films [Guyan1965],
+!> The shaft conducts along itself, loses heat from its ends, from its surface where no bearing is
+!> around it, and from its discs. At each bearing it has one temperature under the film. Condensed
+!> to these, T, with the heat q of the films [Guyan1965],
 !>
 !> $$ S T = g + q. $$
 module gfb_shaft_heat
@@ -14,7 +14,7 @@ module gfb_shaft_heat
   use gfb_held_shaft, only: held_shaft_type, hold_shaft, free_motions
   implicit none (type, external)
   private
-  public :: build_shaft_heat, heat_at_ends, heat_from_surface
+  public :: build_shaft_heat, heat_at_ends, heat_from_surface, heat_from_discs
 
   !> A shaft that conducts.
   type, public :: shaft_heat_type
@@ -23,6 +23,9 @@ module gfb_shaft_heat
     type(held_shaft_type) :: held     !! condensed: S [W/K], g [W]
     real(wp), allocatable :: lost(:)  !! from each node through the surface [W/K]
     real(wp) :: surroundings = 0.0_wp !! temperature around the surface [K]
+    integer, allocatable :: disc(:)   !! nodes of discs
+    real(wp), allocatable :: disc_conductance(:) !! from them to what is around [W/K]
+    real(wp), allocatable :: disc_temperature(:) !! of that [K]
     real(wp) :: end_conductance(2) = 0.0_wp !! of the first and the last end [W/K]
     real(wp) :: end_temperature(2) = 0.0_wp !! beyond them [K]
   contains
@@ -64,6 +67,15 @@ contains
     end do
     matrix(1, 1) = matrix(1, 1) + heat%end_conductance(1)
     matrix(n, n) = matrix(n, n) + heat%end_conductance(2)
+    heat%disc = [(node_at(shaft, asked%disc_position(i)), i=1, size(asked%disc_position))]
+    heat%disc_conductance = asked%disc_conductance
+    heat%disc_temperature = asked%disc_temperature
+    do i = 1, size(heat%disc)
+      associate (k => heat%disc(i), conductance => heat%disc_conductance(i))
+        matrix(k, k) = matrix(k, k) + conductance
+        source(k) = source(k) + conductance*heat%disc_temperature(i)
+      end associate
+    end do
     call list_nodes(asked, shaft, heated, node, heat%at)
     call hold_shaft(matrix, source, node, heat%held, regular)
   end function build_shaft_heat
@@ -134,4 +146,11 @@ contains
     real(wp), intent(in) :: line(:) !! temperatures of all nodes [K]
     out = dot_product(heat%lost, line - heat%surroundings)
   end function heat_from_surface
+
+  !> Heat that leaves it through its discs [W].
+  pure real(wp) function heat_from_discs(heat, line) result(out)
+    type(shaft_heat_type), intent(in) :: heat
+    real(wp), intent(in) :: line(:) !! temperatures of all nodes [K]
+    out = dot_product(heat%disc_conductance, line(heat%disc) - heat%disc_temperature)
+  end function heat_from_discs
 end module gfb_shaft_heat

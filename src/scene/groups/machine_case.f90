@@ -33,6 +33,8 @@ module gfb_machine_case
     real(wp), allocatable :: disc_position(:) !! [m]
     real(wp), allocatable :: disc_mass(:)     !! [kg]
     real(wp), allocatable :: transverse_inertia(:), polar_inertia(:) !! [kg m^2]
+    real(wp), allocatable :: disc_conductance(:) !! to what is around them [W/K]
+    real(wp), allocatable :: disc_temperature(:) !! of that [K]
     ! Bearings.
     character(len=longest_string), allocatable :: file(:) !! as they were typed
     real(wp), allocatable :: bearing_position(:) !! [m]
@@ -248,6 +250,17 @@ contains
     call read_values(keys, n, 'polar_inertias', machine%polar_inertia, 'kg m^2', &
                      'moment of inertia of each about the axis of the shaft', not_negative, &
                      .false., '0')
+    call read_values(keys, n, 'heat_conductances', machine%disc_conductance, 'W/K', 'from each '// &
+                     'disc, as warm as the shaft there, to what is around it: a wheel in its '// &
+                     'gas', not_negative, .false., '0')
+    call read_values(keys, n, 'heat_temperatures', machine%disc_temperature, 'K', 'temperature '// &
+                     'of that', from_to(coldest, hottest), .false., &
+                     'required with heat_conductances')
+    call keys%rule(group, 'heat_temperatures', any(machine%disc_conductance > 0.0_wp .and. &
+                   .not. machine%disc_temperature > 0.0_wp), 'is required with heat_conductances')
+    call keys%rule(group, 'heat_conductances', any(machine%disc_conductance > 0.0_wp) .and. &
+                   .not. keys%holds('machine', 'shaft_conductivity'), &
+                   'needs shaft_conductivity in &machine')
     where (.not. machine%transverse_inertia > 0.0_wp)
       machine%transverse_inertia = 0.5_wp*machine%polar_inertia
     end where

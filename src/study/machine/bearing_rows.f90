@@ -10,7 +10,7 @@ module gfb_bearing_rows
   use gfb_bearing_answer, only: bearing_answer_type
   use gfb_heat_answer, only: heat_answer_type
   use gfb_case_file, only: case_array_type, add_array
-  use gfb_shaft_heat, only: heat_at_ends, heat_from_surface
+  use gfb_shaft_heat, only: heat_at_ends, heat_from_surface, heat_from_discs
   use gfb_machine, only: machine_type, journal_type
   use gfb_machine_equilibrium, only: machine_equilibrium_type
   implicit none (type, external)
@@ -80,17 +80,19 @@ contains
     type(quantity_type), allocatable, intent(inout) :: summary(:)
     type(case_array_type), allocatable, intent(inout) :: arrays(:)
     real(wp), allocatable :: line(:)
-    real(wp) :: at_ends, from_surface, power, left
+    real(wp) :: at_ends, from_surface, from_discs, power, left
     integer :: i
 
     if (.not. machine%heat%present) return
     line = machine%heat%line(answer%temperature)
     at_ends = heat_at_ends(machine%heat, line)
     from_surface = heat_from_surface(machine%heat, line)
+    from_discs = heat_from_discs(machine%heat, line)
     call add_result(summary, 'heat_from_shaft_ends', at_ends)
     call add_result(summary, 'heat_from_shaft_surface', from_surface)
+    call add_result(summary, 'heat_from_discs', from_discs)
     power = 0.0_wp
-    left = -at_ends - from_surface
+    left = -at_ends - from_surface - from_discs
     do i = 1, size(bearing)
       if (machine%heat%at(i) == 0) cycle
       associate (whole => bearing(i)%heat%whole)
@@ -100,8 +102,9 @@ contains
     end do
     call add_result(summary, 'energy_imbalance', left/max(power, tiny(1.0_wp)))
     call log%line('heat of the shaft '//text(at_ends, 4)//' W through its ends, '// &
-                  text(from_surface, 4)//' W through its surface; temperatures '// &
-                  text(minval(line), 4)//' to '//text(maxval(line), 4)//' K')
+                  text(from_surface, 4)//' W through its surface, '//text(from_discs, 4)// &
+                  ' W from discs; temperatures '//text(minval(line), 4)//' to '// &
+                  text(maxval(line), 4)//' K')
     call add_array(arrays, '/shaft/temperature', 'mixed SI', 'z [m], temperature [K] of '// &
                    'the shaft''s nodes', transpose(reshape([machine%shaft%z, line], &
                                                            [size(line), 2])))

@@ -213,7 +213,8 @@ contains
     if (.not. machine%heat%present) return
     associate (heat => machine%heat)
       call log%line('the shaft conducts; to places beyond its ends '//text(heat%end_conductance(1), 3)//' and '// &
-                    text(heat%end_conductance(2), 3)//' W/K, through its surface '//text(sum(heat%lost), 3)//' W/K')
+                    text(heat%end_conductance(2), 3)//' W/K, through its surface '//text(sum(heat%lost), 3)//' W/K, from discs '// &
+                    text(sum(heat%disc_conductance), 3)//' W/K')
     end associate
   end subroutine describe_others
 
