@@ -15,6 +15,7 @@ KIND = "machine"
 MILLI, MICRO, MEGA = 1.0e3, 1.0e6, 1.0e-6
 STEEL = 7800.0        # [kg/m3], of which discs are drawn where the case does not say how large they are
 LARGEST = 0.5         # radius of a disc over the shaft's length, at most
+PLATE = 0.02          # thickness of a thrust bearing's plate over the shaft's length, as drawn
 SLEEVE = 0.35         # thickness of a sleeve over the radius in it
 LINE = 0.55           # of the largest radius: height to which the static line is drawn larger
 ARROW = 0.9           # length of a load's arrow over the largest radius
@@ -42,6 +43,7 @@ class Machine:
     sections: numpy.ndarray  # (end of an element, z, diameter, moments, shears, stress) [SI]
     bearings: numpy.ndarray  # (bearing, z, length, radius, clearance) [m]
     discs: list
+    thrust: list             # of each bearing: to which side a thrust bearing's pads face, 0 of a journal's
     places: list             # (words, z) of bearings, discs and stations, in the order of the results
     speed: float             # [rpm]
 
@@ -54,7 +56,7 @@ class Machine:
     def thickest(self):
         """The largest radius of shaft, discs and sleeves [m]."""
         return max([0.5*self.sections[:, 1].max(), *(disc.radius for disc in self.discs),
-                    *((1.0 + SLEEVE)*self.bearings[:, 2])])
+                    *(radius*(1.0 if side else 1.0 + SLEEVE) for radius, side in zip(self.bearings[:, 2], self.thrust))])
 
     def offset(self, axis):
         """How far each sleeve stands off the line [m]."""
@@ -77,7 +79,9 @@ def read(path, file):
     places += [(f"disc {number}" if len(discs) > 1 else "disc", disc.position) for number, disc in enumerate(discs, 1)]
     places += [(f"{MILLI*float(z):.4g} mm", float(z)) for z in listed(case, "machine%stations")]
     speed = float(file["history/speed_rpm"][-1]) if "history/speed_rpm" in file else float(case["machine%speed_rpm"])
-    return Machine(case, line[:, 0], line[:, 1:], file["shaft/sections"][...], bearings, discs, places, speed)
+    facing = values_of(case, "bearings%facing", len(bearings), 1.0)
+    thrust = [float(facing[number - 1])*(f"force_z_{number}" in file["summary"]) for number in range(1, len(bearings) + 1)]
+    return Machine(case, line[:, 0], line[:, 1:], file["shaft/sections"][...], bearings, discs, thrust, places, speed)
 
 
 def listed(case, name):
@@ -140,9 +144,12 @@ def draw_machine(chart, machine):
             edgecolor="0.3", linewidth=0.8)
         chart.annotate(f"{disc.mass:.3g} kg", (MILLI*disc.position, MILLI*disc.radius), (0, 3), textcoords="offset points", ha="center", fontsize=8)
     for number, (z, length, radius, _) in enumerate(machine.bearings, 1):
+        faces = machine.thrust[number - 1]
+        ends = (z - faces*PLATE*machine.length, z) if faces else (z - 0.5*length, z + 0.5*length)
+        low, high = (radius - length, radius) if faces else (radius, (1.0 + SLEEVE)*radius)  # of sectors the length is along their radius
         for side in (1.0, -1.0):
-            box(chart, z - 0.5*length, z + 0.5*length, side*radius, side*(1.0 + SLEEVE)*radius, facecolor="C0", alpha=0.35, edgecolor="C0", hatch="///")
-        chart.annotate(f"bearing {number}", (MILLI*z, MILLI*(1.0 + SLEEVE)*radius), (0, 3), textcoords="offset points", ha="center", fontsize=8)
+            box(chart, min(ends), max(ends), side*low, side*high, facecolor="C0", alpha=0.35, edgecolor="C0", hatch="///")
+        chart.annotate(f"bearing {number}", (MILLI*sum(ends)/2.0, MILLI*(-high if faces else high)), (0, -11 if faces else 3), textcoords="offset points", ha="center", fontsize=8)
     draw_loads(chart, machine)
     chart.plot(MILLI*machine.z[[0, -1]], (0.0, 0.0), "k-.", linewidth=0.6)
     if len(machine.line):
@@ -202,6 +209,8 @@ def draw_line(chart, machine):
         for column, (axis, style) in enumerate((("x", "-"), ("y", "--"))):
             chart.plot(*smooth(machine, MICRO*machine.line, column), style, color="C3", linewidth=1.4, label=f"axis along {axis}")
     for number, (z, length, _, clearance) in enumerate(machine.bearings):
+        if machine.thrust[number]:
+            continue
         middle = machine.offset("x")[number]
         chart.fill_between(MILLI*numpy.array((z - 0.5*length, z + 0.5*length)), MICRO*(middle - clearance), MICRO*(middle + clearance),
                            color="C0", alpha=0.18, linewidth=0.0, label=None if number else "sleeve's middle, along x, and its clearance")

@@ -19,6 +19,7 @@ ORBITS = 25        # of a shape, about
 RPM = 30.0/math.pi
 SPEEDS = 4         # critical speeds that a map has
 PLACE = 5          # numbers of a place's response: z, amplitude and phase of x, of y
+PEAKED = 0.4*math.pi  # decrement of an amplification by 2.5, below which API 617 counts no critical speed
 DECREMENT = 1.0    # at the ends of the colours
 
 
@@ -76,6 +77,7 @@ def draw_shape(chart, machine, motions):
     chart.plot(along, y, x, color="C3", linewidth=1.8)
     chart.plot(z[[0, -1]], (0.0, 0.0), (0.0, 0.0), "k-.", linewidth=0.8)
     for number, (middle, length, *_) in enumerate(machine.bearings, 1):
+        length = 0.0 if machine.thrust[number - 1] else length
         chart.plot(MILLI*numpy.array((middle - 0.5*length, middle + 0.5*length)), (0.0, 0.0), (0.0, 0.0), color="C2", linewidth=4.0, solid_capstyle="butt")
         chart.text(MILLI*middle, 0.0, -1.25, str(number), color="C2", fontsize=9, ha="center")
     for places, look in ((machine.bearings[:, 0], {"marker": "o", "color": "C2"}), ([disc.position for disc in machine.discs], {"marker": "s", "color": "0.3"})):
@@ -115,7 +117,7 @@ def draw_campbell(path, file):
         place = tuple(numpy.array(branch).T)
         for chart, values in ((above, hertz), (below, decrement)):
             chart.plot(speed[place[0]], values[place], color="0.55", linewidth=1.0, zorder=2)
-        crossings += crossings_of(speed[place[0]], hertz[place])
+        crossings += crossings_of(speed[place[0]], hertz[place], decrement[place])
     for one, words, marker in ((1, "forward", "o"), (2, "backward", "v")):
         here = shown & (way == one)
         across = numpy.broadcast_to(speed[:, None], here.shape)[here]
@@ -142,10 +144,11 @@ def draw_campbell(path, file):
     return figure
 
 
-def crossings_of(speed, hertz):
-    """Speeds at which a branch's frequency is that of the turns [rpm]."""
+def crossings_of(speed, hertz, decrement):
+    """Speeds at which a branch's frequency is that of the turns, and so little damped that the response has a peak there [rpm]."""
     off = hertz - speed/60.0
-    return [float(speed[i] + (speed[i + 1] - speed[i])*off[i]/(off[i] - off[i + 1])) for i in range(len(off) - 1) if off[i]*off[i + 1] < 0.0]
+    return [float(speed[i] + (speed[i + 1] - speed[i])*off[i]/(off[i] - off[i + 1])) for i in range(len(off) - 1)
+            if off[i]*off[i + 1] < 0.0 and min(decrement[i:i + 2]) < PEAKED]
 
 
 # --- unbalance ---
@@ -234,7 +237,7 @@ def draw_critical(path, file):
     """The first critical speeds over the stiffness that each bearing would have, without damping."""
     machine = drawing.read(path, file)
     mass, stiffness, polar = (file[f"shaft/{name}"][...] for name in ("mass", "stiffness", "polar_inertia"))
-    nodes = [int(numpy.abs(machine.z - z).argmin()) for z in machine.bearings[:, 0]]
+    nodes = [int(numpy.abs(machine.z - z).argmin()) for z, side in zip(machine.bearings[:, 0], machine.thrust) if not side]
     if len(nodes) < 2:
         stop(f"{path}: --show critical is of two journals or more")
     middle = mass[::2, ::2].sum()*(machine.speed/RPM)**2/len(nodes)  # of a stiff shaft its first critical speed is near the speed then

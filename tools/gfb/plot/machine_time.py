@@ -63,7 +63,7 @@ def draw_orbits(machine, history, places):
         chart.set_title(f"{words_of(place)}: {numpy.ptp(x):.3g} x {numpy.ptp(y):.3g} um", fontsize=9)
         chart.set(aspect="equal", xlabel="x [um]", ylabel="y [um]")
         number = int(place.rpartition("_")[2]) if place.startswith("bearing_") else 0
-        clearance = MICRO*machine.bearings[number - 1, 3] if number else 0.0
+        clearance = MICRO*machine.bearings[number - 1, 3] if number and not machine.thrust[number - 1] else 0.0
         if clearance > 0.0:
             draw_clearance(chart, history, x, y, clearance, [MICRO*machine.offset(axis)[number - 1] for axis in "xy"])
         else:

@@ -15,6 +15,7 @@ from gfb.report.sketch import case_sketch
 from gfb.report.sketch_lines import LINE, ROOM, SIDE, Drawing, line
 
 RPM = 30.0/math.pi
+Sizes = dict[int, tuple[float, float, float]]  # {bearing: (length, radius, inner radius of a thrust bearing or 0)} [m]
 WIDE, MIDDLE, TALL = SIDE + ROOM, 100.0, 78.0  # of the picture: its width, where the axis is, largest radius
 SAME = 1.0e-9        # of a speed: one that differs less is it
 LINEAR = 1.0/3.0     # of the thinnest film: a larger amplitude is more than a linear theory may say
@@ -194,9 +195,8 @@ def numbers(case: Case, name: str, count: int | None = None, default: float | No
     return [float(one) for one in values]
 
 
-def draw_machine(case: Case, sizes: dict[int, tuple[float, float]] | None = None) -> Drawing:
-    """Shaft, discs, sleeves and loads to scale; sizes: {bearing: (length, radius)} where their files are known [m]. ValueError where its
-    numbers give no machine."""
+def draw_machine(case: Case, sizes: Sizes | None = None) -> Drawing:
+    """Shaft, discs, sleeves and loads to scale; sizes: of bearings whose files are known. ValueError where its numbers give no machine."""
     lengths = numbers(case, "shaft%lengths")
     outer, inner = numbers(case, "shaft%outer_diameters", len(lengths)), numbers(case, "shaft%inner_diameters", len(lengths), 0.0)
     if not lengths or not min(lengths) > 0.0 or not min(outer) > 0.0:
@@ -205,8 +205,10 @@ def draw_machine(case: Case, sizes: dict[int, tuple[float, float]] | None = None
     places = numbers(case, "discs%positions", None, None) if "discs%positions" in case else []
     masses, polar = (numbers(case, f"discs%{name}", len(places), default) if places else [] for name, default in (("masses", None), ("polar_inertias", 0.0)))
     discs = [disc_size(mass, inertia) for mass, inertia in zip(masses, polar)]
-    scale = min((WIDE - 24.0)/whole, TALL/max([0.5*max(outer), *(radius for radius, _ in discs)]))
+    tallest = max([0.5*max(outer), *(radius for radius, _ in discs), *(radius for _, radius, _ in (sizes or {}).values())])
+    scale = min((WIDE - 24.0)/whole, TALL/tallest)
     drawing, begin = Drawing(), 0.5*(WIDE - scale*whole)
+    facing = numbers(case, "bearings%facing", len(case.listed("bearings%positions")), 1.0) if "bearings%positions" in case else []
 
     def box(look, groups, left, right, low, high):
         drawing.add(look, groups, line([(begin + scale*left, MIDDLE - scale*low), (begin + scale*right, MIDDLE - scale*low),
@@ -221,13 +223,17 @@ def draw_machine(case: Case, sizes: dict[int, tuple[float, float]] | None = None
     for middle, (radius, width) in zip(places, discs):
         box("ramp", "discs", middle - 0.5*width, middle + 0.5*width, -radius, radius)
     for number, middle in enumerate(numbers(case, "bearings%positions") if "bearings%positions" in case else [], 1):
-        length, radius = (sizes or {}).get(number) or (diameter_at(middle, lengths, outer), 0.5*diameter_at(middle, lengths, outer))
+        here = diameter_at(middle, lengths, outer)
+        length, radius, inner_radius = (sizes or {}).get(number) or (here, 0.5*here, 0.0)
+        left, right, low, high = middle - 0.5*length, middle + 0.5*length, radius, radius + SLEEVE/scale
+        if inner_radius > 0.0:  # a plate behind its pads
+            left, right, low, high = middle - facing[number - 1]*SLEEVE/scale, middle, inner_radius, radius
         for side in (1.0, -1.0):
-            box("pad", "bearings", middle - 0.5*length, middle + 0.5*length, side*radius, side*(radius + SLEEVE/scale))
+            box("pad", "bearings", min(left, right), max(left, right), side*low, side*high)
         drawing.notes.append(("fine", f"bearing {number} at {1.0e3*middle:.4g} mm"))
     draw_loads(drawing, case, begin, scale)
     drawing.add("axis line", "machine", line([(begin - 10.0, MIDDLE), (begin + scale*whole + 10.0, MIDDLE)]))
-    drawing.low = MIDDLE + scale*max([0.5*max(outer) + SLEEVE/scale, *(radius for radius, _ in discs)]) + LINE + 4.0
+    drawing.low = MIDDLE + max(scale*tallest, 0.5*scale*max(outer) + SLEEVE) + LINE + 4.0
     drawing.notes.insert(0, ("note", f"shaft of {1.0e3*whole:.4g} mm, z →, x ↑"))
     return drawing
 
@@ -263,7 +269,7 @@ def draw_loads(drawing: Drawing, case: Case, begin: float, scale: float) -> None
                                                (begin + scale*place + 3.0, MIDDLE - 14.0), (begin + scale*place - 3.0, MIDDLE - 14.0)], True))
 
 
-def machine_picture(case: Case, sizes: dict[int, tuple[float, float]] | None = None) -> dict | None:
+def machine_picture(case: Case, sizes: Sizes | None = None) -> dict | None:
     """The picture of a machine's case; None where its numbers give none."""
     try:
         return draw_machine(case, sizes).picture(WIDE) | {"words": "the machine to scale", "pads": [], "thinnest": None, "centre": None}
@@ -271,25 +277,31 @@ def machine_picture(case: Case, sizes: dict[int, tuple[float, float]] | None = N
         return None
 
 
-def picture_of_case(case: Case, sizes: dict[int, tuple[float, float]] | None = None) -> dict | None:
+def picture_of_case(case: Case, sizes: Sizes | None = None) -> dict | None:
     """The picture of a machine's case, or of a bearing's or a strip's; None where its numbers give none."""
     return machine_picture(case, sizes) if is_machine(case) else case_sketch(case)
 
 
-def sizes_of_files(case: Case, read: Callable[[str], str]) -> dict[int, tuple[float, float]]:
-    """{bearing: (length, radius)} of the files that a case names, as far as they can be read [m]."""
-    found = {}
+def sizes_of_files(case: Case, read: Callable[[str], str]) -> Sizes:
+    """Those of the files that a case names, as far as they can be read."""
+    found: Sizes = {}
     for number, name in enumerate(case.listed("bearings%files") if "bearings%files" in case else (), 1):
         try:
             results = Results({}, name if isinstance(name, Case) else Case.parse(read(name)))
         except (ValueError, OSError):
             continue
-        length, radius = results.key("bearing%length"), results.key("bearing%radius")
+        length, radius, inner = (results.key(f"bearing%{key}") for key in ("length", "radius", "inner_radius"))
+        ring = results.key("bearing%outer_radius")
         if length and radius and min(length, radius) > 0.0:
-            found[number] = (length, radius)
+            found[number] = (length, radius, 0.0)
+        elif ring and inner and ring > inner > 0.0:
+            found[number] = (ring - inner, ring, inner)
     return found
 
 
-def sizes_of(tables: MachineTables | None) -> dict[int, tuple[float, float]]:
-    """{bearing: (length, radius)} of a result [m]."""
-    return {} if tables is None else {number: (float(row[1]), float(row[2])) for number, row in enumerate(tables.bearings, 1)}
+def sizes_of(tables: MachineTables | None, summary: dict) -> Sizes:
+    """Those of a result; a thrust bearing has a force along z, and its table the length of its sectors along their radius."""
+    if tables is None:
+        return {}
+    return {number: (float(row[1]), float(row[2]), float(row[2] - row[1]) if f"force_z_{number}" in summary else 0.0)
+            for number, row in enumerate(tables.bearings, 1)}

@@ -130,7 +130,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
     with reading(path):  # of a file that is not gfb's, too
         place = place_of_thinnest(stem, summary)
         found = Results(summary, used, place, machine=machine)
-        drawn_case = machine_picture(used, sizes_of(machine)) if is_machine(used) else sketch(summary, used, place)
+        drawn_case = machine_picture(used, sizes_of(machine, summary)) if is_machine(used) else sketch(summary, used, place)
         margins = margins_of(found)
         about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency, machine), "sketch": drawn_case, "place": place, "heat": heat_rows(summary),
                  "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
