@@ -4,7 +4,6 @@ module gfb_bearing_record
   use gfb_archive, only: archive_type
   use gfb_quantity, only: quantity_type, add_quantity, number_quantity
   use gfb_result_names, only: add_result, result_unit, result_meaning, is_of_heat
-  use gfb_scene, only: scene_type
   use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_eccentricity_y, &
                             sweep_keys, parameter_words
   use gfb_bearing_system, only: bearing_system_type
@@ -16,6 +15,7 @@ module gfb_bearing_record
   use gfb_contact_record, only: contact_record_type, record_foil_contacts
   use gfb_dynamics_record, only: dynamics_record_type, visit_dynamics
   use gfb_tilt_response, only: tilt_response_type, row_quantities, visit_response
+  use gfb_scene, only: scene_type ! here: before others GNU Fortran 12 falls over it
   implicit none (type, external)
   private
   public :: add_row, sweep_name, sweep_unit
