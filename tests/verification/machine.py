@@ -344,9 +344,10 @@ def check_rigid_onset(checks, folder):
 def check_start(checks, folder):
     """Where levers lead to no equilibrium it is come to from a higher speed; what is doubtful is a warning."""
     content = coarse(folder)
-    content["machine"] |= {"speed_rpm": 3000.0, "gravity": (-30.0, 0.0)}
+    content["machine"] |= {"speed_rpm": 2500.0, "gravity": (-20.0, 0.0)}
     answer = solve(folder, "slow", content)
-    checks.that("from a higher speed", "from a higher speed" in answer.log and answer["minimum_gap_2"] < 0.5e-6)
+    checks.that("from a higher speed", "from a higher speed" in answer.log)
+    checks.that("down to its own, where the film is thinner", answer["minimum_gap_2"] < 0.1e-6)
     check_balance(checks, answer, content)
     content["machine"]["speed_rpm"] = 300.0
     checks.that("a machine that touches down", "touches down" in solve(folder, "slower", content, status=2).log)

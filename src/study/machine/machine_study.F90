@@ -185,6 +185,7 @@ contains
     if (allocated(error)) return
     do i = 1, merge(0, points, context%restart%continues)
       if (self%reason%is_given()) exit
+      self%machine%speed = angular_speed(scene%machine%speed_rpm) ! it may have begun at a higher one
       if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
       call find_answer(self, scene, context%log, self%motions(i))
       if (self%reason%is_given()) exit
