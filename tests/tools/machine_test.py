@@ -193,6 +193,37 @@ class MachineTest(unittest.TestCase):
         self.assertIn("film mesh: 32 x 4 elements", needs_of(run["case_file"], None, run["bearing_files"]))
 
 
+class BlowerTest(unittest.TestCase):
+    """The tutorial's machine, on coarse meshes."""
+
+    def test_it_is_what_the_page_says(self):
+        case = gfb.Case.read(INPUTS/"blower.nml")
+        for number in (1, 2, 3):
+            case[f"bearing_{number}%mesh%circumferential_elements"] = 12 if number == 3 else 48
+            case[f"bearing_{number}%mesh%{'radial' if number == 3 else 'axial'}_elements"] = 6 if number == 3 else 4
+        with tempfile.TemporaryDirectory() as folder:
+            answer = gfb.run(case, folder, "blower")
+            self.assertAlmostEqual(answer["mass"], 2.2, delta=0.05)
+            self.assertLess(answer["growth_rate"], -20.0)
+            self.assertAlmostEqual(abs(answer["force_z_3"]), 120.0, delta=1.0e-6)
+            self.assertGreater(min(answer[f"minimum_gap_{number}"] for number in (1, 2, 3)), 5.0e-6)
+            path = pathlib.Path(f"{answer.stem}.h5")
+            with h5py.File(path, "r") as file:
+                hertz = numpy.sort(file["dynamics/mode_frequency"][...].ravel()/(2.0*math.pi))
+                bends = hertz[hertz > 800.0]
+                self.assertTrue(((bends > 1000.0) & (bends < 1300.0)).all() and len(bends) == 2, hertz)
+                above = plot_machine.draw(path, file).axes[0]
+                mass, stiffness = (file[f"shaft/{name}"][...] for name in ("mass", "stiffness"))
+            free = numpy.sort(numpy.sqrt(numpy.abs(numpy.linalg.eigvals(numpy.linalg.solve(mass, stiffness)))))[2]/(2.0*math.pi)
+            self.assertAlmostEqual(free, 1100.0, delta=10.0)
+            plates = [patch.get_bbox() for patch in above.patches if patch.get_hatch() is not None][4:]
+            self.assertEqual([round(plate.x1, 9) for plate in plates], [283.0, 283.0])  # behind pads that face +z
+            self.assertEqual(sorted(round(abs(end), 9) for end in plates[0].intervaly), [22.0, 45.0])
+            run = read_run(answer.stem, None, pictures=False)
+            self.assertIn("All known limits are kept; film of bearing 1 is nearest", run["verdict"])
+            pyplot.close("all")
+
+
 class DesignTest(unittest.TestCase):
     """The study of a machine."""
 
