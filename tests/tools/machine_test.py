@@ -173,6 +173,17 @@ class MachineTest(unittest.TestCase):
         self.assertIn("bearing 2, 0.5 of its film", sentence(margins_of(results)))
         self.assertEqual(not_computed(results, margins_of(results)), ["whirl", "temperature"])
 
+    def test_temperatures_are_those_of_the_files(self):
+        case, file = gfb.Case.read(INPUTS/"blower_hot.nml"), gfb.Case.read(INPUTS/"blower_thrust_hot.nml")
+        summary = {f"maximum_film_temperature_{number}": {"value": value} for number, value in ((1, 320.0), (2, 350.0), (3, 400.0))}
+        tables = MachineTables(numpy.zeros((3, 5)), numpy.zeros(0), None, [gfb.Case(), gfb.Case(), file])
+        one, = (margin for margin in margins_of(Results(summary, case, machine=tables)) if margin.subject == "temperature")
+        self.assertEqual((one.state, one.value), ("unknown", "hottest film 126.9 °C, in bearing 3"))
+        file["capacity%highest_temperature"] = 293.15 + 53.425
+        one, = (margin for margin in margins_of(Results(summary, case, machine=tables)) if margin.subject == "temperature")
+        self.assertTrue(one.is_broken)
+        self.assertAlmostEqual(one.factor, 0.5)
+
     def test_the_sketch_of_a_machine_is_to_scale(self):
         case = gfb.Case.read(INPUTS/"rotor.nml")
         shapes = draw_machine(case).shapes

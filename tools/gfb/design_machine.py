@@ -12,6 +12,7 @@ from typing import Any
 from gfb.case import FILES, Case, CaseError
 from gfb.design_parts import SPEEDS, WHIRL_SPEEDS, with_analysis
 from gfb.design_work import Part
+from gfb.report.machine import is_thrust
 
 RPM = 30.0/math.pi
 GRAVITY = 9.81      # [m/s2]
@@ -59,7 +60,7 @@ def parts_of_machine(case: Case, smallest_gap: float | None, gap: float, grade: 
     parts.append(titled(case, swept, "campbell", "modes and response over the speed"))
     parts[-1].states = len(WHIRL_SPEEDS)
     for number in range(1, count + 1):
-        parts += parts_of_bearing(one.bearing(number), number, loads.get(number), speed)
+        parts += parts_of_bearing(one.bearing(number), number, loads.get(number), speed, case.get("machine%axial_load"))
     return parts
 
 
@@ -80,25 +81,31 @@ def unbalance_of(case: Case, centre: float, whole: float) -> dict[str, Any]:
     return dict(case.groups["unbalance"]) | {"values": tuple(whole*value/size for value in values)}
 
 
-def parts_of_bearing(bearing: Case, number: int, load: tuple[float, float] | None, speed: float) -> list[Part]:
-    """Capacity and onset of a bearing alone, under its load by levers."""
+def parts_of_bearing(bearing: Case, number: int, load: tuple[float, float] | None, speed: float, axial_load: float | None) -> list[Part]:
+    """Capacity and onset of a bearing alone, under its load by levers, of a thrust bearing under all that acts along the axis."""
     names = [(f"capacity_{number}", f"bearing {number} alone: load capacity over the speed, to a film of {1.0e6*bearing['capacity%smallest_gap']:.3g} um"),
              (f"whirl_{number}", f"bearing {number} alone: whirl over the speed under its share of the load")]
-    if bearing.is_thrust() or load is None or not math.hypot(*load) > 0.0:
-        why = "a runner does not whirl, and its load is the machine's" if bearing.is_thrust() else "nothing presses on it by levers"
-        return [Part(name, question, left_out=why) for name, question in names]
-    alone = bearing.copy()
+    alone, weight = bearing.copy(), math.hypot(*(load or (0.0, 0.0)))
     alone.groups.pop("sweep", None)
-    alone.groups.setdefault("operation", {}).update(speed_rpm=speed, load=load)
-    for key in ("operation%eccentricity", "operation%tilt", "operation%moment"):
+    alone.groups.setdefault("operation", {}).update(speed_rpm=speed)
+    if bearing.is_thrust():
+        alone["operation%axial_load"] = abs(axial_load or 0.0)
+    elif load is None or not weight > 0.0:
+        return [Part(name, question, left_out="nothing presses on it by levers") for name, question in names]
+    else:
+        alone["operation%load"] = load
+    for key in ("operation%eccentricity", "operation%tilt", "operation%moment", "operation%axial_gap"):
         if key in alone:
             del alone[key]
     gap = alone["capacity%smallest_gap"]
     capacity = with_analysis(alone, "capacity", names[0][1], "load_capacity", capacity={"smallest_gap": gap}, sweep={
         "parameter": "speed_rpm", "values": tuple(part*speed for part in SPEEDS)})
-    whirl = with_analysis(alone, "whirl", names[1][1], "linear_dynamics", ("foil_damping",), rotor={"mass": math.hypot(*load)/GRAVITY}, sweep={
+    capacity.name = names[0][0]
+    if bearing.is_thrust():
+        return [capacity, Part(names[1][0], names[1][1], left_out="a runner does not whirl along its axis")]
+    whirl = with_analysis(alone, "whirl", names[1][1], "linear_dynamics", ("foil_damping",), rotor={"mass": weight/GRAVITY}, sweep={
         "parameter": "speed_rpm", "values": tuple(part*speed for part in WHIRL_SPEEDS)})
-    capacity.name, whirl.name = names[0][0], names[1][0]
+    whirl.name = names[1][0]
     return [capacity, whirl]
 
 
@@ -127,6 +134,7 @@ def answer_campbell(question: str, run: dict[str, Any]) -> list[Row]:
     rows: list[Row] = [(question, words, margin.against if margin else "", bool(margin and margin.is_broken))]
     amplitude = run.get("amplitudes")
     if amplitude is not None and len(amplitude):
+        amplitude = amplitude*[not is_thrust(run["summary"], number) for number in range(1, amplitude.shape[1] + 1)]  # of journals
         point, number = (int(one) for one in divmod(int(amplitude.argmax()), amplitude.shape[1]))
         rows.append(("largest motion of a journal", f"{1.0e6*amplitude[point, number]:.3g} um in bearing {number + 1}", f"at {speeds[point]:,.0f} rpm", False))
     return rows

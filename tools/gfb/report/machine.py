@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy
 
@@ -13,6 +14,7 @@ from gfb.report.answer import KELVIN, MOST, THINNEST, Results, is_number
 from gfb.report.margin import ONSET, Margin, compared
 from gfb.report.sketch import case_sketch
 from gfb.report.sketch_lines import LINE, ROOM, SIDE, Drawing, line
+from gfb.results import text_of
 
 RPM = 30.0/math.pi
 Sizes = dict[int, tuple[float, float, float]]  # {bearing: (length, radius, inner radius of a thrust bearing or 0)} [m]
@@ -31,6 +33,7 @@ class MachineTables:
     bearings: numpy.ndarray   # (bearing; z, length, radius, clearance, film that is wanted) [m]
     amplitude: numpy.ndarray  # of each bearing's response to unbalance at the machine's speed [m]; empty without one
     stress: float | None      # of the shaft's outer fibre [Pa]
+    files: list[Case] = dataclasses.field(default_factory=list)  # of the bearings
     over_points: numpy.ndarray = dataclasses.field(default_factory=lambda: numpy.zeros((0, 0)))  # (point, bearing): amplitudes [m]
 
 
@@ -51,7 +54,8 @@ def read_tables(file, case: Case) -> MachineTables | None:
         table = file["dynamics/response"][...].reshape(len(speeds), -1, 5)
         amplitudes = numpy.array([largest_radius(one[:len(bearings)]) for one in table])
         amplitude = amplitudes[numpy.abs(speeds - own).argmin()] if numpy.abs(speeds - own).min() <= SAME*abs(own) else amplitude
-    return MachineTables(bearings, amplitude, float(file["shaft/sections"][:, 6].max()), amplitudes)
+    files = [Case.parse(text_of(file[f"scene/bearing_{number}"][()])) for number in range(1, len(bearings) + 1) if f"scene/bearing_{number}" in file]
+    return MachineTables(bearings, amplitude, float(file["shaft/sections"][:, 6].max()), files, amplitudes)
 
 
 def largest_radius(table: numpy.ndarray) -> numpy.ndarray:
@@ -111,7 +115,7 @@ def whirl(results: Results) -> Iterator[Margin]:
 
 def response(results: Results) -> Iterator[Margin]:
     """How far unbalance moves each journal, over its film: beyond a third linear theory says little."""
-    tables, gaps = results.machine, dict(numbers_of(results, "minimum_gap"))
+    tables, gaps = results.machine, {number: gap for number, gap in numbers_of(results, "minimum_gap") if not is_thrust(results.summary, number)}
     if tables is None or not len(tables.amplitude):
         return
     number, share = max(((i, size/gaps[i]) for i, size in enumerate(tables.amplitude, 1) if gaps.get(i, 0.0) > 0.0),
@@ -121,10 +125,24 @@ def response(results: Results) -> Iterator[Margin]:
                        "linear theory reaches to a third", LINEAR/share if share > 0.0 else MOST)
 
 
+def is_thrust(summary: dict[str, Any], number: int) -> bool:
+    """Whether a bearing holds the shaft along its axis."""
+    return f"force_z_{number}" in summary
+
+
 def temperature(results: Results) -> Iterator[Margin]:
-    """The hottest film; no case says how hot it may be."""
-    hot = numbers_of(results, "maximum_film_temperature")
-    if hot:
+    """The hottest film of each bearing against what its file allows, by the rise over the gas around; where none says how hot it may be,
+    the hottest of all."""
+    hot, limited = numbers_of(results, "maximum_film_temperature"), False
+    for number, most in hot:
+        own = Results({}, results.machine.files[number - 1]) if results.machine and number <= len(results.machine.files) else None
+        limit = own.key("capacity%highest_temperature") if own else None
+        ambient = own.key("thermal%ambient_temperature", 20.0 + KELVIN) if own else None
+        if limit and ambient and most > ambient:
+            limited = True
+            yield compared("temperature", f"hottest film of bearing {number} {most - KELVIN:.4g} °C", f"{limit - KELVIN:.4g} °C are allowed",
+                           (limit - ambient)/(most - ambient))
+    if hot and not limited:
         number, most = max(hot, key=lambda one: one[1])
         yield Margin("temperature", f"hottest film {most - KELVIN:.4g} °C, in bearing {number}")
 
@@ -303,5 +321,5 @@ def sizes_of(tables: MachineTables | None, summary: dict) -> Sizes:
     """Those of a result; a thrust bearing has a force along z, and its table the length of its sectors along their radius."""
     if tables is None:
         return {}
-    return {number: (float(row[1]), float(row[2]), float(row[2] - row[1]) if f"force_z_{number}" in summary else 0.0)
+    return {number: (float(row[1]), float(row[2]), float(row[2] - row[1]) if is_thrust(summary, number) else 0.0)
             for number, row in enumerate(tables.bearings, 1)}
