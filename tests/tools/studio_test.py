@@ -811,7 +811,7 @@ class BrowserTest(Served):
         page.type("[data-key='shaft%lengths']", "-1 m")
         page.wait("document.querySelector('.verdict').innerText.includes('mistake')")
         page.wait("document.querySelector(\"[data-group='shaft'] .said\").innerText.includes('must be positive')")
-        page.type("[data-key='shaft%lengths']", "0.3 m")
+        page.type("[data-key='shaft%lengths']", "0.33 m")
         page.wait("document.querySelector('.verdict').innerText.includes('in order')")
         page.press("run", "button")
         page.wait("document.querySelector('.state')?.innerText.includes('has an answer')")
