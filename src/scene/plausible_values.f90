@@ -160,7 +160,7 @@ module gfb_plausible_values
     range_type(0.3_wp, 1.2_wp, '1', '%', 'shaft%shear_coefficient'), &
     range_type(0.0_wp, 1.0e-2_wp, 's', 'ms,us', 'shaft%material_damping'), &
     range_type(0.0_wp, 10.0_wp, 'm', 'mm,um', 'discs%positions bearings%positions '// &
-               'loads%positions unbalance%positions machine%stations'), &
+               'loads%positions unbalance%positions machine%stations transient%pulse_position'), &
     range_type(1.0e-4_wp, 1.0e4_wp, 'kg', 'g', 'discs%masses'), &
     range_type(1.0e-10_wp, 50.0_wp, 'kg m^2', 'kg mm^2,g mm^2', 'discs%polar_inertias '// &
                'discs%transverse_inertias'), &
@@ -174,7 +174,7 @@ module gfb_plausible_values
                'bearings%support_damping_y'), &
     range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'loads%forces_x loads%forces_y machine%axial_load'), &
     range_type(0.0_wp, 1.0e4_wp, 'N m', 'N mm', 'loads%moments_x loads%moments_y'), &
-    range_type(0.0_wp, 1.0e3_wp, 'm/s^2', 'mm/s^2', 'machine%gravity'), &
+    range_type(0.0_wp, 1.0e3_wp, 'm/s^2', 'mm/s^2', 'machine%gravity transient%start_gravity'), &
     range_type(0.0_wp, 1.0e7_wp, 'rad/s', 'rpm', 'dynamics%largest_frequency'), &
     range_type(1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm', 'unbalance%values'), &
     range_type(0.0_wp, 6.3_wp, 'rad', 'deg', 'unbalance%angles'), &

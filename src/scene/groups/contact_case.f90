@@ -24,7 +24,7 @@ module gfb_contact_case
   integer, parameter, public :: direction_motion = 2        !! along the shaft's motion alone
 
   integer, parameter, public :: motion_coulomb = 1    !! what sticks keeps its friction; the default
-  integer, parameter :: motion_as_at_rest = 2 !! by `friction_law`
+  integer, parameter, public :: motion_as_at_rest = 2 !! by `friction_law`
 
   !> mid-surfaces touch, as [Gu2020] has it; the default
   integer, parameter :: surface_mid = 1
