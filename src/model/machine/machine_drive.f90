@@ -85,7 +85,7 @@ contains
         push%unbalance_angle = unbalance%angles(i)
       end associate
     end do
-    if (transient%pulse_position >= 0.0_wp) then
+    if (transient%pulse_is_placed) then
       call add_push(machine, transient%pulse_position, drive)
       associate (push => drive%push(size(drive%push))%drive)
         push%pulse = transient%pulse

@@ -407,7 +407,7 @@ contains
                        default='required with shaft_film_conductance')
     do i = 1, size(others)
       call keys%rule(group, trim(others(i)), .not. conducts .and. &
-                     keys%holds(group, trim(others(i))), 'needs shaft_conductivity')
+                     keys%meant(group, trim(others(i))), 'needs shaft_conductivity')
     end do
     call keys%rule(group, 'shaft_end_temperature', any(machine%shaft_end_conductance > 0.0_wp) &
                    .and. .not. ends, 'is required with shaft_end_conductance')

@@ -119,7 +119,8 @@ module gfb_motion_cases
     real(wp) :: ramp_time = 0.0_wp         !! in which it is reached; 0: the whole time [s]
     real(wp) :: pulse(2) = 0.0_wp          !! [N s]
     real(wp) :: couple_pulse(2) = 0.0_wp   !! [N m s]
-    real(wp) :: pulse_position = -1.0_wp   !! on a machine's shaft; < 0: its centre of mass [m]
+    real(wp) :: pulse_position = 0.0_wp    !! on a machine's shaft [m]
+    logical :: pulse_is_placed = .false.   !! else it acts through the centre of mass
     real(wp) :: start_gravity(2) = 0.0_wp  !! in whose equilibrium a machine begins [m/s^2]
     logical :: start_gravity_given = .false. !! else that of `&machine`
     real(wp) :: pulse_start = 0.0_wp       !! [s]
@@ -460,7 +461,8 @@ contains
                               '`pulse_position`')
     call keys%real_key('pulse_position', transient%pulse_position, 'm', 'where on the shaft of '// &
                        'a machine the push acts, from its first end', not_negative, &
-                       default='its centre of mass', useless=of_machine)
+                       default='its centre of mass', given=transient%pulse_is_placed, &
+                       useless=of_machine)
     call keys%real_key('pulse_start', transient%pulse_start, 's', 'when it begins', not_negative)
     call keys%real_key('pulse_length', transient%pulse_length, 's', 'how long it takes', positive, &
                        default='required with `pulse` and `couple_pulse`')

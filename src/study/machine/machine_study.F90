@@ -100,7 +100,7 @@ contains
     asked = scene%machine
     asked%gravity = gravity
     places = scene%unbalance%position
-    if (scene%transient%pulse_position >= 0.0_wp) places = [places, scene%transient%pulse_position]
+    if (scene%transient%pulse_is_placed) places = [places, scene%transient%pulse_position]
     machine = build_machine(asked, places, [(self%part(i)%scene%bearing%row, i=1, size(self%part))])
   end function machine_of
 
