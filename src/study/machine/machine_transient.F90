@@ -21,7 +21,7 @@ module gfb_machine_transient
   use gfb_bearing_restart, only: visit_answer_and_record
   use gfb_foil_mass_choice, only: choose_momentum, resume_momentum
   use gfb_newton, only: forget_factors
-  use gfb_transient, only: is_field_time
+  use gfb_transient, only: is_field_time, settings_of, time_lacking, place_in_time
   use gfb_shaft, only: node_at
   use gfb_held_shaft, only: free_motions
   use gfb_machine, only: machine_type
@@ -49,7 +49,7 @@ module gfb_machine_transient
   contains
     procedure :: run => run_machine, results
     procedure, private :: keep_fields, save, restore, visit
-    procedure, private :: place_in_time, look_for_limits, look_for_steady_orbit, change_of_orbit, judge_end
+    procedure, private :: look_for_limits, look_for_steady_orbit, change_of_orbit, judge_end
   end type machine_transient_type
 
 contains
@@ -87,7 +87,7 @@ contains
       motion = free_motions(answer%held, answer%motion)
       force = answer%force
     end if
-    call begin_machine_march(machine, motion, force, drive, [(settings_of(scene, part(i)%scene), i=1, size(part))], bearing, self%march)
+    call begin_machine_march(machine, motion, force, drive, [(settings_in(scene, part(i)%scene), i=1, size(part))], bearing, self%march)
     call begin_lines(self, scene, machine)
     call self%history%see(machine, self%march, bearing)
     call self%history%add(machine, self%march, bearing)
@@ -95,25 +95,21 @@ contains
       call self%keep_fields(scene, bearing)
     else
       call self%restore(context%restart, part, machine, bearing, error)
-      if (.not. allocated(error)) call context%log%line('restart: resumed from '//self%place_in_time())
+      if (.not. allocated(error)) call context%log%line('restart: resumed from '//place_in_time(self%march%film(1)))
     end if
     if (.not. allocated(error)) call follow_machine(self, scene, part, machine, bearing, context, reason)
     call end_machine_march(self%march, bearing)
   end subroutine run_machine
 
   !> How a bearing goes through time: steps are the machine's, losses its own.
-  pure function settings_of(scene, part) result(settings)
+  pure function settings_in(scene, part) result(settings)
     type(scene_type), intent(in) :: scene !! of the machine, with `&transient`
-    type(scene_type), intent(in) :: part  !! of the bearing
+    type(scene_type), intent(in) :: part  !! of the bearing, with the same
     type(march_settings_type) :: settings
 
-    settings%steps_per_turn = scene%transient%steps_per_turn
-    settings%tolerance = scene%transient%time_tolerance
+    settings = settings_of(part)
     settings%end_time = duration_of(scene%transient, scene%operation)
-    settings%damping = part%foil_damping%foundation_damping
-    settings%arm = part%foil_damping%arm
-    settings%loss_time = part%foil_damping%loss_time()
-  end function settings_of
+  end function settings_in
 
   !> Names the places at which the shaft's motion is shown: bearings, discs, stations.
   subroutine begin_lines(self, scene, machine)
@@ -149,7 +145,7 @@ contains
     restart = context%restart
     from = self%march%film(1)%time
     associate (clock => self%march%film(1), every => scene%transient%output_every, log => context%log)
-      call log%is_within(self%place_in_time(), 0.0_wp)
+      call log%is_within(place_in_time(self%march%film(1)), 0.0_wp)
       do while (clock%time < clock%settings%end_time)
         call take_machine_step(machine, bearing, self%march, why)
         if (why == '') then
@@ -162,11 +158,11 @@ contains
           end if
         else
           reason%code = reason_no_answer
-          reason%detail = 'no time step converges from '//self%place_in_time()//': '//why
+          reason%detail = 'no time step converges from '//place_in_time(self%march%film(1))//': '//why
         end if
         if (self%ending /= '') exit
         if (stop_agreed()) then
-          call reason%stopped(' at '//self%place_in_time())
+          call reason%stopped(' at '//place_in_time(self%march%film(1)))
           if (restart%may_be_written() .and. clock%steps > 0) then ! before the first step there is no past to go on from
             call self%save(scene, restart, log, part, bearing)
             call restart%tell(log, reason%detail)
@@ -175,10 +171,10 @@ contains
         if (reason%is_given()) exit
         due = restart%is_due(clock%steps)
         if (due .and. clock%time < clock%settings%end_time) call self%save(scene, restart, log, part, bearing)
-        call log%is_within(self%place_in_time(), (clock%time - from)/(clock%settings%end_time - from))
+        call log%is_within(place_in_time(self%march%film(1)), (clock%time - from)/(clock%settings%end_time - from))
       end do
       call log%is_within('')
-      if (self%ending /= '') call log%line(self%ending//' at '//self%place_in_time())
+      if (self%ending /= '') call log%line(self%ending//' at '//place_in_time(self%march%film(1)))
       call self%judge_end(scene, reason)
       if (reason%is_given() .and. .not. reason%is_stop()) call log%tell(reason%words())
       call log%line(text(clock%steps)//' steps, '//text(clock%rejections)//' of them taken again shorter; smallest film '// &
@@ -305,13 +301,6 @@ contains
     name = 'film_'//text(number)
   end function film_archive
 
-  !> Time and turns, in words.
-  function place_in_time(self) result(words)
-    class(machine_transient_type), intent(in) :: self
-    character(len=:), allocatable :: words
-    words = 'time '//text(self%march%film(1)%time, 6)//' s, turn '//text(self%march%film(1)%turns(), 5)
-  end function place_in_time
-
   !> Whether a film has closed, or a journal has left its place: after every step.
   subroutine look_for_limits(self, scene, part)
     class(machine_transient_type), intent(inout) :: self
@@ -378,12 +367,8 @@ contains
     why = self%ending
     associate (clock => self%march%film(1), transient => scene%transient)
       if (clock%time < clock%settings%end_time) then
-        if (transient%turns > 0.0_wp) self%lacking = text(transient%turns)//' turns'
-        if (transient%duration > 0.0_wp) self%lacking = text(transient%duration)//' s'
-        if (transient%speed_changes .and. clock%time < clock%drive%ramp) then
-          self%lacking = self%lacking//', '//text(transient%final_speed_rpm)//' rpm'
-        end if
-        if (why /= '') why = why//' at '//self%place_in_time()
+        self%lacking = time_lacking(transient, clock)
+        if (why /= '') why = why//' at '//place_in_time(self%march%film(1))
       end if
       if (transient%steady_tolerance > 0.0_wp) then
         if (self%lacking /= '') self%lacking = self%lacking//', '

@@ -35,7 +35,7 @@ module gfb_transient
   use gfb_restart_file, only: restart_type, save_restart, read_restart, end_reading, refuse_restart
   implicit none (type)
   private
-  public :: is_field_time
+  public :: is_field_time, settings_of, time_lacking, place_in_time
 
   real(wp), parameter :: shortest = 0.01_wp !! step of the way there [1]
 
@@ -58,7 +58,7 @@ contains
 
   !> How the steps of a scene are chosen.
   pure function settings_of(scene) result(settings)
-    type(scene_type), intent(in) :: scene !! with `&transient`
+    type(scene_type), intent(in) :: scene !! of the bearing, with `&transient`
     type(march_settings_type) :: settings
 
     settings%steps_per_turn = scene%transient%steps_per_turn
@@ -343,9 +343,21 @@ contains
     call self%history%visit(archive)
   end subroutine visit
 
+  !> What was asked for of a time that has ended before its end, in words.
+  function time_lacking(transient, march) result(words)
+    type(transient_case_type), intent(in) :: transient !! what `&transient` asks for
+    type(march_type), intent(in) :: march !! where it has ended
+    character(len=:), allocatable :: words
+
+    words = ''
+    if (transient%turns > 0.0_wp) words = text(transient%turns)//' turns'
+    if (transient%duration > 0.0_wp) words = text(transient%duration)//' s'
+    if (transient%speed_changes .and. march%time < march%drive%ramp) words = words//', '//text(transient%final_speed_rpm)//' rpm'
+  end function time_lacking
+
   !> Time and turns, in words.
   function place_in_time(march) result(words)
-    type(march_type), intent(in) :: march
+    type(march_type), intent(in) :: march !! that is there
     character(len=:), allocatable :: words
     words = 'time '//text(march%time, 6)//' s, turn '//text(march%turns(), 5)
   end function place_in_time
@@ -406,11 +418,7 @@ contains
     why = self%ending
     associate (march => self%march, transient => scene%transient)
       if (march%time < march%settings%end_time) then
-        if (transient%turns > 0.0_wp) self%lacking = text(transient%turns)//' turns'
-        if (transient%duration > 0.0_wp) self%lacking = text(transient%duration)//' s'
-        if (transient%speed_changes .and. march%time < march%drive%ramp) then
-          self%lacking = self%lacking//', '//text(transient%final_speed_rpm)//' rpm'
-        end if
+        self%lacking = time_lacking(transient, march)
         if (why /= '') then
           why = why//' at '//place_in_time(march)//', where the smallest film is below touch_down_gap = '// &
                 text(scene%solver%touch_down_gap, 3)//' m'
