@@ -27,7 +27,7 @@ module gfb_machine
   implicit none (type, external)
   private
   public :: build_machine, machine_shaft, hold_at_rest, place_of_sleeve, bearing_loads, &
-            across_at_journals, line_of_shaft
+            across_at_journals, line_of_shaft, places_along
 
   integer, parameter :: ways = 2 !! a journal's motions across its axis: x, y
 
@@ -253,6 +253,23 @@ contains
     line = true_motions(machine%sleeve, motion)
     line = line(:machine%shaft%coordinates())
   end function line_of_shaft
+
+  !> Where the shaft's axis is: x and y of each node.
+  pure function places_along(machine, motion, node) result(place)
+    type(machine_type), intent(in) :: machine
+    real(wp), intent(in) :: motion(:) !! all of the machine [m], [1]
+    integer, intent(in) :: node(:)
+    real(wp) :: place(2*size(node)) !! [m]
+    real(wp), allocatable :: line(:)
+    real(wp) :: sign(motions)
+    integer :: i, at(motions)
+
+    line = line_of_shaft(machine, motion)
+    do i = 1, size(node)
+      call journal_places(machine%shaft, node(i), at, sign)
+      place(2*i - 1:2*i) = sign(:2)*line(at(:2))
+    end do
+  end function places_along
 
   !> Loads of the journal bearings, as if each held its journal in the middle of its sleeve and
   !> turned with it: of two bearings by levers.

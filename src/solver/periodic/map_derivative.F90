@@ -78,7 +78,7 @@ contains
 
   !> Broyden's formula: the derivative that is nearest to the one before and maps the last step as it was.
   subroutine learn_step(map, step, change, derivative)
-    type(period_map_type), intent(in) :: map
+    class(period_map_type), intent(in) :: map
     real(wp), intent(in) :: step(:)   !! of the point
     real(wp), intent(in) :: change(:) !! of what it is mapped to
     type(derivative_type), intent(inout) :: derivative
@@ -124,7 +124,7 @@ contains
   !>
   !> $$ \delta = f + W z + \delta_T + \delta_p, \quad z = V^T \delta, \quad c_i^T \delta = r_i $$
   subroutine model_step(map, derivative, open, row, rest, step)
-    type(period_map_type), intent(in) :: map !! the map
+    class(period_map_type), intent(in) :: map !! the map
     type(derivative_type), intent(in) :: derivative !! what is known of it
     real(wp), intent(in) :: open(:)   !! f, by which the orbit does not close [1]
     real(wp), intent(in) :: row(:, :) !! c, (entries, conditions) [1]

@@ -16,8 +16,7 @@ module gfb_shooting
   use gfb_kinds, only: wp
   use gfb_units, only: pi
   use gfb_text, only: text
-  use gfb_period_map, only: period_map_type, apply_map, dots, length_of, tail, period_of, drive_at, parameter_of
-  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_period_map, only: period_map_type, dots, length_of, period_of, speed_of, parameter_of
   use gfb_map_derivative, only: derivative_type, floquet_type, conditions, add_column, learn_step, model_step, find_multipliers
   implicit none (type)
   private
@@ -58,7 +57,7 @@ contains
 
   !> From a point near an orbit to the orbit; `.false.` where none is found.
   logical function shoot(map, condition, derivative, x, y, iterations) result(found)
-    type(period_map_type), intent(inout) :: map !! the map
+    class(period_map_type), intent(inout) :: map !! the map
     type(condition_type), intent(in) :: condition !! that close the system
     type(derivative_type), intent(inout) :: derivative !! learns from each iteration
     real(wp), intent(inout) :: x(:) !! the point, then the orbit [1]
@@ -73,7 +72,7 @@ contains
     before = 0.0_wp
     halvings = 0
     do iterations = 1, most_iterations
-      if (apply_map(map, x, y, .true.)) then
+      if (map%apply(x, y, .true.)) then
         if (iterations > 1) call learn_step(map, step, y - step_free(before, x, y), derivative)
         opened = open
         open = opening(map, condition, x, y)
@@ -107,7 +106,7 @@ contains
 
   !> How far a point is from an orbit, and from its conditions.
   real(wp) function opening(map, condition, x, y) result(open)
-    type(period_map_type), intent(in) :: map
+    class(period_map_type), intent(in) :: map
     type(condition_type), intent(in) :: condition
     real(wp), intent(in) :: x(:), y(:)
 
@@ -117,7 +116,7 @@ contains
 
   !> The map's derivative at an orbit, from nothing, and its multipliers; `.false.` where the map fails beside it.
   logical function find_monodromy(map, x, y, derivative, floquet) result(done)
-    type(period_map_type), intent(inout) :: map !! the map
+    class(period_map_type), intent(inout) :: map !! the map
     real(wp), intent(in) :: x(:) !! the orbit [1]
     real(wp), intent(in) :: y(:) !! what it is mapped to [1]
     type(derivative_type), intent(out) :: derivative !! from nothing
@@ -129,7 +128,7 @@ contains
     allocate (derivative%basis(size(x), 0), derivative%image(size(x), 0), inner(most_basis, most_basis))
     inner = 0.0_wp
     direction = 0.0_wp
-    direction(size(x) - tail + 1:size(x) - 2) = [1.0_wp, 0.5_wp, 1.0_wp, 0.5_wp, 0.3_wp, -0.4_wp, 0.3_wp, -0.4_wp]
+    direction(size(x) - map%tail + 1:size(x) - 2) = map%start
     direction = direction/norm2(direction)
     do k = 1, most_basis
       done = image_of(map, x, y, direction, image)
@@ -161,11 +160,11 @@ contains
 
   !> What a direction is mapped to, by a difference of the map.
   logical function image_of(map, x, y, direction, image) result(done)
-    type(period_map_type), intent(inout) :: map
+    class(period_map_type), intent(inout) :: map
     real(wp), intent(in) :: x(:), y(:), direction(:)
     real(wp), intent(out) :: image(:)
 
-    done = apply_map(map, x + difference*direction, image, .false.)
+    done = map%apply(x + difference*direction, image, .false.)
     image = (image - y)/difference
     image(size(x) - 1:) = 0.0_wp
   end function image_of
@@ -183,7 +182,7 @@ contains
 
   !> The first value of the parameter, from that of a point on, at which the growth of its equilibrium changes its sign.
   logical function find_onset(map, x, final_value, onset) result(found)
-    type(period_map_type), intent(inout) :: map !! of one turn, not free
+    class(period_map_type), intent(inout) :: map !! of one turn, not free
     real(wp), intent(in) :: x(:) !! equilibrium, to begin with [1]
     real(wp), intent(in) :: final_value !! of the parameter [its unit]
     type(whirl_type), intent(out) :: onset
@@ -222,11 +221,10 @@ contains
 
   !> The onset again in steps of which whole ones are a period of the whirl: those of its limit cycles.
   logical function refine(map, slope, onset) result(found)
-    type(period_map_type), intent(inout) :: map !! gets the steps of that period
+    class(period_map_type), intent(inout) :: map !! gets the steps of that period
     real(wp), intent(in) :: slope !! of the growth over the parameter
     type(whirl_type), intent(inout) :: onset
     integer, parameter :: times = 2
-    type(shaft_drive_type) :: drive
     type(whirl_type) :: trial
     real(wp) :: steps
     integer :: i, steps_of_turn
@@ -234,8 +232,7 @@ contains
     steps_of_turn = map%steps
     found = .true.
     do i = 0, times
-      drive = drive_at(map, onset%x)
-      steps = steps_of_turn*drive%speed/onset%frequency
+      steps = steps_of_turn*speed_of(map, onset%x)/onset%frequency
       map%stretch = steps/nint(steps)
       if (i == times) exit
       found = look_at(map, onset%x, parameter_of(map, onset%x) - merge(0.0_wp, onset%growth/slope, i == 0), trial)
@@ -249,7 +246,7 @@ contains
 
   !> The equilibrium at a value of the parameter, and its least damped mode.
   logical function look_at(map, x, value, whirl) result(found)
-    type(period_map_type), intent(inout) :: map
+    class(period_map_type), intent(inout) :: map
     real(wp), intent(in) :: x(:) !! an equilibrium near by
     real(wp), intent(in) :: value !! [its unit]
     type(whirl_type), intent(out) :: whirl
@@ -274,23 +271,21 @@ contains
 
   !> The mode that grows most among those that whirl.
   subroutine take_mode(map, floquet, whirl)
-    type(period_map_type), intent(in) :: map
+    class(period_map_type), intent(in) :: map
     type(floquet_type), intent(in) :: floquet
     type(whirl_type), intent(inout) :: whirl
-    type(shaft_drive_type) :: drive
-    complex(wp) :: now(2), before(2)
+    complex(wp) :: now(size(map%scale)), before(size(map%scale))
     real(wp) :: period, speed, seen, frequency, growth, best
     integer :: i, shaft
 
     period = period_of(map, whirl%x)
-    drive = drive_at(map, whirl%x)
-    speed = drive%speed
-    shaft = size(whirl%x) - tail
+    speed = speed_of(map, whirl%x)
+    shaft = map%local
     best = -huge(best)
     do i = 1, size(floquet%value)
       if (abs(floquet%value(i)) < visible) cycle
-      now = floquet%vector(shaft + 1:shaft + 2, i)
-      before = floquet%vector(shaft + 3:shaft + 4, i)
+      now = floquet%vector(shaft + 1:shaft + size(now), i)
+      before = floquet%vector(shaft + size(now) + 1:shaft + 2*size(now), i)
       seen = atan2(aimag(dot_product(before, now)), real(dot_product(before, now)))*map%steps/period
       frequency = atan2(aimag(floquet%value(i)), real(floquet%value(i)))
       frequency = (frequency + 2.0_wp*pi*nint((seen*period - frequency)/(2.0_wp*pi)))/period

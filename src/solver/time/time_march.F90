@@ -101,10 +101,11 @@ contains
   end subroutine begin_losses
 
   !> Begins with a given past instead, in equal steps.
-  subroutine resume_march(unknown, velocity, bearing, march)
+  subroutine resume_march(unknown, place, velocity, bearing, march)
     real(wp), intent(in) :: unknown(:, :) !! (local unknowns, 2) now and one step ago [SI]
-    real(wp), intent(in) :: velocity(2, 2) !! of the sleeve, now and one step ago [m/s]
-    type(bearing_system_type), intent(inout) :: bearing !! gets the newest state; its shaft is free
+    real(wp), intent(in) :: place(:, :)   !! (coordinates, 2) of the sleeve, as many as move [m], [rad]
+    real(wp), intent(in) :: velocity(:, :) !! (coordinates, 2) of it [m/s], [rad/s]
+    type(bearing_system_type), intent(inout) :: bearing !! gets the newest state
     type(march_type), intent(inout) :: march !! that has begun; gets the past
     real(wp) :: weight(0:2)
     PetscErrorCode :: ierr
@@ -114,8 +115,8 @@ contains
     call bearing%set_unknowns(unknown(:, 2))
     PetscCallA(VecCopy(bearing%state, march%state(2), ierr))
     call bearing%set_unknowns(unknown(:, 1))
-    march%velocity(:2, :) = velocity
-    march%place(:2, :2) = unknown(bearing%first_shaft + 1:bearing%first_shaft + 2, :)
+    march%velocity(:size(velocity, 1), :) = velocity
+    march%place(:size(place, 1), :2) = place
     weight = difference_weights(march%next, march%next)
     march%place(:, 3) = march%place(:, 2) &
       + (march%velocity(:, 1) - weight(0)*(march%place(:, 1) - march%place(:, 2)))/weight(2)

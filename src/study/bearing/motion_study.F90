@@ -16,6 +16,8 @@ module gfb_motion_study
   use gfb_case_file, only: case_array_type
   use gfb_run_context, only: run_context_type
   use gfb_transient, only: transient_type
+  use gfb_period_map, only: period_map_type
+  use gfb_bearing_orbits, only: map_of_bearing
   use gfb_periodic, only: periodic_type
   use gfb_bearing_study, only: bearing_study_type
   use gfb_onset, only: judge_first_point
@@ -74,12 +76,15 @@ contains
     type(scene_type), intent(in) :: scene !! with `&periodic`
     type(run_context_type), intent(in) :: context !! of the run
     type(error_type), allocatable, intent(out) :: error !! why it failed
+    class(period_map_type), allocatable :: map
+    real(wp) :: bounds(2)
 
     call self%bearing_study_type%find_answers(scene, context, error)
     if (allocated(error) .or. self%reason%is_given()) return
     allocate (self%motion)
     call stop_heat(self%solution)
-    call self%motion%run(scene, context, self%solution%bearing, self%solution%newton, self%reason)
+    call map_of_bearing(scene, self%solution%bearing, self%solution%newton, map, bounds)
+    call self%motion%run(scene%periodic, context, map, bounds, self%reason)
     call self%solution%record%move_on(self%motion%results())
   end subroutine find_orbits
 

@@ -8,10 +8,10 @@ module gfb_machine_history
   use gfb_spectra, only: spectra_type, spectra_of, points_a_turn
   use gfb_orbit_record, only: orbit_record_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_orbit_table, only: words_of_place
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
-  use gfb_shaft, only: motions, journal_places
-  use gfb_machine, only: machine_type, line_of_shaft
+  use gfb_machine, only: machine_type, places_along
   use gfb_film_surface, only: shaft_coordinates, translations
   use gfb_bearing_rows, only: places, forces, is_written
   use gfb_machine_equilibrium, only: machine_bearing_type
@@ -62,7 +62,7 @@ contains
     call put('speed', 'rad/s', 'speed of the shaft')
     do i = 1, size(place)
       do k = 1, 2
-        call put(axes(k)//'_'//trim(place(i)), 'm', 'place of the shaft''s axis along '//axes(k)//' at '//words_of(place(i)))
+        call put(axes(k)//'_'//trim(place(i)), 'm', 'place of the shaft''s axis along '//axes(k)//' at '//words_of_place(place(i)))
       end do
     end do
     do i = 1, size(machine%journal)
@@ -93,16 +93,6 @@ contains
       character(len=*), intent(in) :: name, unit, meaning
       history%column = [history%column, column_type(name, trim(unit), meaning)]
     end subroutine put
-
-    !> `bearing_1` as words.
-    pure function words_of(what) result(words)
-      character(len=*), intent(in) :: what
-      character(len=:), allocatable :: words
-      words = trim(what)
-      associate (k => index(words, '_'))
-        words = words(:k - 1)//' '//words(k + 1:)
-      end associate
-    end function words_of
   end subroutine begin_history
 
   !> Notes the smallest gap and the places of the present state, which no line need show.
@@ -115,25 +105,8 @@ contains
 
     self%gap = [(bearing(i)%bearing%smallest_gap(), i=1, size(bearing))]
     self%smallest_gap = min(self%smallest_gap, minval(self%gap))
-    call self%orbit%see_motion(march%film(1), places_of(machine, march%motion(:, 1), self%node), orbit_turns)
+    call self%orbit%see_motion(march%film(1), places_along(machine, march%motion(:, 1), self%node), orbit_turns)
   end subroutine see_step
-
-  !> Where the shaft's axis is: x and y of each node.
-  pure function places_of(machine, motion, node) result(place)
-    type(machine_type), intent(in) :: machine
-    real(wp), intent(in) :: motion(:) !! all of the machine [m], [1]
-    integer, intent(in) :: node(:)
-    real(wp) :: place(2*size(node)) !! [m]
-    real(wp), allocatable :: line(:)
-    real(wp) :: sign(motions)
-    integer :: i, at(motions)
-
-    line = line_of_shaft(machine, motion)
-    do i = 1, size(node)
-      call journal_places(machine%shaft, node(i), at, sign)
-      place(2*i - 1:2*i) = sign(:2)*line(at(:2))
-    end do
-  end function places_of
 
   !> Adds the present state.
   subroutine add_line(self, machine, march, bearing)
@@ -147,7 +120,7 @@ contains
     integer :: i, k, iterations, factorizations
 
     associate (clock => march%film(1))
-      line = [clock%time, clock%turns(), bearing(1)%bearing%point%speed, places_of(machine, march%motion(:, 1), self%node)]
+      line = [clock%time, clock%turns(), bearing(1)%bearing%point%speed, places_along(machine, march%motion(:, 1), self%node)]
       iterations = 0
       factorizations = 0
       do i = 1, size(bearing)

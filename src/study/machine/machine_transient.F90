@@ -22,7 +22,6 @@ module gfb_machine_transient
   use gfb_foil_mass_choice, only: choose_momentum, resume_momentum
   use gfb_newton, only: forget_factors
   use gfb_transient, only: is_field_time, settings_of, time_lacking, place_in_time
-  use gfb_shaft, only: node_at
   use gfb_held_shaft, only: free_motions
   use gfb_machine, only: machine_type
   use gfb_machine_drive, only: machine_drive_type, machine_drive
@@ -33,6 +32,7 @@ module gfb_machine_transient
                                resume_machine_march, forget_tangents
   use gfb_machine_history, only: machine_history_type, begin_history
   use gfb_machine_parts, only: part_type
+  use gfb_machine_places, only: shown_places, nodes_of_places
   use gfb_machine_results, only: add_surfaces
   implicit none (type)
   private
@@ -88,7 +88,7 @@ contains
       force = answer%force
     end if
     call begin_machine_march(machine, motion, force, drive, [(settings_in(scene, part(i)%scene), i=1, size(part))], bearing, self%march)
-    call begin_lines(self, scene, machine)
+    call begin_history(machine, nodes_of_places(machine), shown_places(scene%machine), self%history)
     call self%history%see(machine, self%march, bearing)
     call self%history%add(machine, self%march, bearing)
     if (.not. context%restart%continues) then
@@ -110,23 +110,6 @@ contains
     settings = settings_of(part)
     settings%end_time = duration_of(scene%transient, scene%operation)
   end function settings_in
-
-  !> Names the places at which the shaft's motion is shown: bearings, discs, stations.
-  subroutine begin_lines(self, scene, machine)
-    class(machine_transient_type), intent(inout) :: self
-    type(scene_type), intent(in) :: scene !! of the machine
-    type(machine_type), intent(in) :: machine
-    character(len=32), allocatable :: place(:)
-    integer :: i
-
-    associate (asked => scene%machine)
-      place = [character(len=32) :: ('bearing_'//text(i), i=1, size(machine%journal)), &
-                                    ('disc_'//text(i), i=1, size(asked%disc_position)), &
-                                    ('station_'//text(i), i=1, size(asked%station))]
-    end associate
-    call begin_history(machine, [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), machine%station], &
-                       place, self%history)
-  end subroutine begin_lines
 
   !> Steps until the time is over, or something has happened.
   subroutine follow_machine(self, scene, part, machine, bearing, context, reason)

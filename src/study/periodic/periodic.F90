@@ -6,36 +6,29 @@ module gfb_periodic
   use gfb_kinds, only: wp
   use gfb_units, only: pi, micrometres
   use gfb_text, only: text
-  use gfb_scene, only: scene_type
-  use gfb_operation_case, only: angular_speed
-  use gfb_motion_cases, only: motion_free, follow_speed, follow_unbalance, follow_mass
-  use gfb_bearing_system, only: bearing_system_type
-  use gfb_period_map, only: period_map_type, create_map, parameter_of, moved_speed, moved_unbalance, moved_mass, drive_at, &
-       period_of, rest_of, release, apply_map, dots, length_of, tail
-  use gfb_shaft_drive, only: shaft_drive_type
+  use gfb_motion_cases, only: periodic_case_type, motion_free
+  use gfb_period_map, only: period_map_type, parameter_of, moved_speed, moved_unbalance, moved_mass, period_of, speed_of, driven_at, &
+                            dots, length_of, last_step
   use gfb_shooting, only: shoot, find_monodromy, condition_type, whirl_type, find_onset, fixed_parameter
   use gfb_map_derivative, only: floquet_type, model_step, derivative_type, conditions
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_signals, only: stop_agreed
-  use gfb_newton, only: newton_type
-  use gfb_time_march, only: begin_rubbing
   use gfb_case_file, only: case_array_type
   use gfb_reasons, only: reason_type, reason_no_answer, reason_not_reached
   use gfb_run_context, only: run_context_type
-  use gfb_orbit_table, only: leading, in_period, in_ratio, in_gap, in_largest, orbit_type, orbit_table_type, extent_of
+  use gfb_orbit_table, only: leading, in_period, in_ratio, in_gap, in_largest, orbit_type, orbit_table_type, words_of_place
   implicit none (type)
   private
 
   real(wp), parameter :: known = 2.0e-5_wp !! error of a multiplier: that of differences of the map [1]
 
-  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp] !! tolerances of a step of time: residual, step [1]
   real(wp), parameter :: shortest = 1.0e-3_wp !! step of the branch over the longest one [1]
   integer, parameter :: easy = 7, hard = 11    !! iterations after which steps grow, or shrink
 
   !> The orbits, and where they stand.
   type, public :: periodic_type
-    type(period_map_type) :: map
+    class(period_map_type), allocatable :: map
     type(orbit_table_type) :: table
     type(whirl_type) :: onset                 !! of free ones
     character(len=:), allocatable :: ending   !! why the branch ends before its end
@@ -56,53 +49,9 @@ module gfb_periodic
 
 contains
 
-  !> The map of a scene, and the bounds of its parameter.
-  subroutine set_map(scene, bearing, newton, map, bounds)
-    type(scene_type), intent(in) :: scene !! with `&periodic`
-    type(bearing_system_type), target, intent(inout) :: bearing !! whose shaft is free
-    type(newton_type), target, intent(inout) :: newton !! its solver
-    type(period_map_type), intent(out) :: map !! created
-    real(wp), intent(out) :: bounds(2) !! of the parameter of a point: begin, end [1]
-    real(wp) :: final
-
-    associate (periodic => scene%periodic)
-      map%drive%mass = scene%rotor%mass
-      map%drive%load = scene%operation%load
-      map%drive%speed = angular_speed(scene%operation%speed_rpm)
-      map%drive%unbalance = scene%unbalance%static
-      map%drive%unbalance_angle = scene%unbalance%angle
-      map%settings%damping = scene%foil_damping%foundation_damping
-      map%settings%arm = scene%foil_damping%arm
-      map%settings%loss_time = scene%foil_damping%loss_time()
-      map%turns = 1
-      if (periodic%motion /= motion_free) map%turns = periodic%period_turns
-      map%steps = periodic%steps_per_turn*map%turns
-      map%period_scale = 2.0_wp*pi*map%turns/map%drive%speed
-      final = periodic%final_value
-      select case (periodic%parameter)
-      case (follow_speed)
-        map%parameter = moved_speed
-        final = angular_speed(final)
-        bounds = [map%drive%speed, final]
-      case (follow_unbalance)
-        map%parameter = moved_unbalance
-        bounds = [map%drive%unbalance, final]
-      case (follow_mass)
-        map%parameter = moved_mass
-        bounds = [map%drive%mass, final]
-      case default
-        map%parameter = 0
-        bounds = [0.0_wp, 1.0_wp]
-      end select
-    end associate
-    map%parameter_scale = abs(bounds(2) - bounds(1))
-    bounds = bounds/map%parameter_scale
-    call create_map(bearing, newton, map)
-  end subroutine set_map
-
   !> The parameter at an orbit, in words.
   function value_words(map, x) result(words)
-    type(period_map_type), intent(in) :: map !! the map
+    class(period_map_type), intent(in) :: map !! the map
     real(wp), intent(in) :: x(:) !! the orbit's point [1]
     character(len=:), allocatable :: words
     real(wp) :: value
@@ -116,13 +65,13 @@ contains
     case (moved_mass)
       words = 'mass '//text(value, 6)//' kg'
     case default
-      words = text(map%drive%speed*30.0_wp/pi, 7)//' rpm'
+      words = text(map%driven(moved_speed)*30.0_wp/pi, 7)//' rpm'
     end select
   end function value_words
 
   !> Another value of the parameter, in words.
   function words_at(map, x, parameter) result(words)
-    type(period_map_type), intent(in) :: map !! the map
+    class(period_map_type), intent(in) :: map !! the map
     real(wp), intent(in) :: x(:) !! any point [1]
     real(wp), intent(in) :: parameter !! as points have it [1]
     character(len=:), allocatable :: words
@@ -150,20 +99,18 @@ contains
   !> A free orbit always has a multiplier of 1, that of a shift along itself, and the onset of whirl two: those nearest to 1 are
   !> left out of the judgement.
   subroutine judge_orbit(map, x, gap, floquet, neutral, orbit, loss)
-    type(period_map_type), intent(in) :: map !! the map
+    class(period_map_type), intent(in) :: map !! the map
     real(wp), intent(in) :: x(:) !! the orbit's point [1]
     real(wp), intent(in) :: gap !! the smallest one of the orbit [m]
     type(floquet_type), intent(in) :: floquet !! its multipliers, none where they are not known
     integer, intent(in) :: neutral !! multipliers that are known to be 1
     type(orbit_type), intent(inout) :: orbit !! with its places
     character(len=:), allocatable, intent(out) :: loss !! of stability
-    type(shaft_drive_type) :: drive
     complex(wp) :: largest
     logical :: counts(size(floquet%value))
     real(wp) :: period, size_of, stable
     integer :: many, i
 
-    drive = drive_at(map, x)
     period = period_of(map, x)
     counts = .true.
     do i = 1, neutral
@@ -180,11 +127,7 @@ contains
     end if
     many = min(leading, size(floquet%value))
     orbit%multiplier(:many) = floquet%value(:many)
-    associate (x_places => orbit%place(1, :map%steps), y_places => orbit%place(2, :map%steps))
-      orbit%value = [drive%speed, drive%unbalance, drive%mass, period, 2.0_wp*pi/(period*drive%speed), &
-                     extent_of(orbit%place(1, :)), extent_of(orbit%place(2, :)), sum(x_places)/map%steps, &
-                     sum(y_places)/map%steps, gap, size_of, stable, real(map%periods, wp)]
-    end associate
+    orbit%value = [driven_at(map, x), period, 2.0_wp*pi/(period*speed_of(map, x)), gap, size_of, stable, real(map%periods, wp)]
   end subroutine judge_orbit
 
   !> How an orbit with a multiplier beyond 1 leaves.
@@ -202,47 +145,52 @@ contains
   end function kind_of
 
   !> An orbit in words.
-  function words_of(orbit, clearance, loss) result(words)
+  function words_of(orbit, place, clearance, loss) result(words)
     type(orbit_type), intent(in) :: orbit !! complete
-    real(wp), intent(in) :: clearance !! C [m]
+    character(len=*), intent(in) :: place(:) !! where it is shown; empty: in the one bearing
+    real(wp), intent(in) :: clearance !! C of that [m]
     character(len=*), intent(in) :: loss !! of its stability, or none
     character(len=:), allocatable :: words
+    integer :: i
 
-    words = 'orbit '//text(extent_of(orbit%place(1, :))*micrometres, 4)//' x '//text(extent_of(orbit%place(2, :))*micrometres, 4)// &
-            ' um, over C '//text(extent_of(orbit%place(1, :))/clearance, 3)//', frequency ratio ' &
-            //text(orbit%value(in_ratio), 6)//', smallest film '//text(orbit%value(in_gap)*micrometres, 4)// &
-            ' um'
+    words = 'orbit '
+    do i = 1, size(place)
+      if (i > 1) words = words//', '
+      words = words//text(orbit%extent(2*i - 1)*micrometres, 4)//' x '//text(orbit%extent(2*i)*micrometres, 4)//' um'
+      if (place(i) /= '') words = words//' at '//words_of_place(place(i))
+    end do
+    if (size(place) == 1) words = words//', over C '//text(orbit%extent(1)/clearance, 3)
+    words = words//', frequency ratio '//text(orbit%value(in_ratio), 6)//', smallest film '// &
+            text(orbit%value(in_gap)*micrometres, 4)//' um'
     if (.not. ieee_is_nan(orbit%value(in_largest))) words = words//', largest multiplier '//text(orbit%value(in_largest), 5)
     if (loss /= '') words = words//': unstable, '//loss
   end function words_of
 
   !> Finds the orbits, from an equilibrium on.
-  subroutine run_periodic(self, scene, context, bearing, newton, reason)
+  subroutine run_periodic(self, periodic, context, map, bounds, reason)
     class(periodic_type), intent(inout) :: self !! gets them
-    type(scene_type), intent(in) :: scene !! with `&periodic`
+    type(periodic_case_type), intent(in) :: periodic !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
-    type(bearing_system_type), target, intent(inout) :: bearing !! in equilibrium; left at the end of the last orbit
-    type(newton_type), target, intent(inout) :: newton !! its solver
+    class(period_map_type), allocatable, intent(inout) :: map !! its bearings in equilibrium; becomes its own
+    real(wp), intent(in) :: bounds(2) !! of the parameter of a point: begin, end [1]
     type(reason_type), intent(inout) :: reason !! why there is none
     real(wp), allocatable :: y(:)
     logical :: found
 
     call context%log%heading('orbits')
-    newton%log%verbose = .false.
-    newton%settings%residual_tolerance = min(newton%settings%residual_tolerance, tight(1))
-    newton%settings%step_tolerance = min(newton%settings%step_tolerance, tight(2))
     self%ending = ''
     self%lacking = ''
     self%loss = ''
-    call begin_rubbing(bearing, .false.)
-    call set_map(scene, bearing, newton, self%map, self%bounds)
-    self%x = rest_of(self%map)
-    if (scene%periodic%motion == motion_free) then
-      found = self%begin_free(scene, context)
+    call move_alloc(map, self%map)
+    self%bounds = bounds
+    self%table%place = self%map%place
+    self%x = self%map%rest()
+    if (periodic%motion == motion_free) then
+      found = self%begin_free(periodic, context)
     else
-      found = self%begin_forced(scene, context)
+      found = self%begin_forced(periodic, context)
     end if
-    if (found .and. self%map%parameter > 0) call self%follow(scene, context)
+    if (found .and. self%map%parameter > 0) call self%follow(periodic, context)
     if (stop_agreed()) then
       call reason%stopped(' after '//text(self%map%periods)//' periods')
     else if (.not. found) then
@@ -251,7 +199,7 @@ contains
       call context%log%tell(reason%words())
     else
       allocate (y(size(self%x)))
-      found = apply_map(self%map, self%x, y, .true.) ! the bearing's state is of the orbit again
+      found = self%map%apply(self%x, y, .true.) ! the bearing's state is of the orbit again
       if (self%lacking /= '') then
         reason%code = reason_not_reached
         reason%detail = 'not reached: '//self%lacking//': '//self%ending
@@ -265,9 +213,9 @@ contains
   end subroutine run_periodic
 
   !> The first forced orbit: some periods from rest, then Newton's method.
-  logical function begin_forced(self, scene, context) result(found)
+  logical function begin_forced(self, periodic, context) result(found)
     class(periodic_type), intent(inout) :: self
-    type(scene_type), intent(in) :: scene
+    type(periodic_case_type), intent(in) :: periodic
     type(run_context_type), intent(in) :: context
     type(floquet_type) :: floquet
     type(condition_type) :: condition
@@ -275,17 +223,17 @@ contains
     integer :: i, iterations
 
     condition = fixed_parameter(self%x)
-    call release(self%map, self%x)
+    call self%map%release(self%x)
     found = .true.
-    do i = 1, scene%periodic%start_turns
-      found = apply_map(self%map, self%x, y, .false.)
+    do i = 1, periodic%start_turns
+      found = self%map%apply(self%x, y, .false.)
       if (.not. found) return
       self%x = y
     end do
-    found = apply_map(self%map, self%x, y, .false.)
+    found = self%map%apply(self%x, y, .false.)
     if (found) found = find_monodromy(self%map, self%x, y, self%derivative, floquet)
     if (found) found = shoot(self%map, condition, self%derivative, self%x, y, iterations)
-    if (found) found = self%keep_orbit(scene, context, y, iterations)
+    if (found) found = self%keep_orbit(periodic, context, y, iterations)
     if (.not. found .or. self%map%parameter == 0) return
     none = 0.0_wp
     allocate (self%way(size(self%x)))
@@ -295,11 +243,10 @@ contains
   end function begin_forced
 
   !> The first limit cycle: a small one along the mode at the onset of whirl.
-  logical function begin_free(self, scene, context) result(found)
+  logical function begin_free(self, periodic, context) result(found)
     class(periodic_type), intent(inout) :: self
-    type(scene_type), intent(in) :: scene
+    type(periodic_case_type), intent(in) :: periodic
     type(run_context_type), intent(in) :: context
-    type(shaft_drive_type) :: drive
     type(floquet_type) :: floquet
     type(condition_type) :: condition
     real(wp) :: y(size(self%x))
@@ -308,29 +255,26 @@ contains
     found = find_onset(self%map, self%x, self%bounds(2)*self%map%parameter_scale, self%onset)
     if (.not. found) return
     self%x = self%onset%x
-    drive = drive_at(self%map, self%x)
     call context%log%line('onset of whirl at '//value_words(self%map, self%x)//', frequency over the speed ' &
-                          //text(self%onset%frequency/drive%speed, 6))
+                          //text(self%onset%frequency/speed_of(self%map, self%x), 6))
     self%map%free = .true.
     self%map%period_scale = 2.0_wp*pi/self%onset%frequency
     self%x(size(self%x) - 1) = 1.0_wp
-    found = apply_map(self%map, self%x, y, .true.)
-    if (found) found = self%keep_orbit(scene, context, y, 0)
+    found = self%map%apply(self%x, y, .true.)
+    if (found) found = self%keep_orbit(periodic, context, y, 0)
     if (.not. found) return
     allocate (condition%row(size(self%x), conditions))
     condition%row(:, 1) = aimag(self%onset%mode)
     condition%row(:, 2) = real(self%onset%mode)
     self%way = real(self%onset%mode)/length_of(self%map, condition%row(:, 2))
-    self%x = self%x + scene%periodic%first_amplitude*real(self%onset%mode)
+    self%x = self%x + periodic%first_amplitude*real(self%onset%mode)
     condition%value = dots(self%map, condition%row, self%x)
-    found = apply_map(self%map, self%x, y, .false.)
+    found = self%map%apply(self%x, y, .false.)
     if (found) found = find_monodromy(self%map, self%x, y, self%derivative, floquet)
     if (found) found = shoot(self%map, condition, self%derivative, self%x, y, iterations)
-    if (found) found = self%keep_orbit(scene, context, y, iterations)
+    if (found) found = self%keep_orbit(periodic, context, y, iterations)
     if (.not. found) return
-    associate (first => self%table%orbit(2))
-      self%first_extent = extent_of(first%place(1, :)) + extent_of(first%place(2, :))
-    end associate
+    self%first_extent = size_of_orbit(self%table%orbit(2))
     self%subcritical = self%onset%slope*(self%x(size(self%x)) - self%onset%x(size(self%x))) < 0.0_wp
     self%bend = 0.0_wp*self%way
     call self%turn_way(0.0_wp)
@@ -363,18 +307,14 @@ contains
       row(size(x) - 1) = 1.0_wp
       return
     end if
-    associate (many => self%map%owned, shaft => size(x) - tail)
-      row(:many) = x(:many) - x(many + 1:2*many)
-      row(shaft + 1:shaft + 2) = x(shaft + 1:shaft + 2) - x(shaft + 3:shaft + 4)
-      row(shaft + 5:shaft + 6) = x(shaft + 5:shaft + 6) - x(shaft + 7:shaft + 8)
-    end associate
+    row = last_step(self%map, x)
     row = row/length_of(self%map, row)
   end function phase
 
   !> From orbit to orbit by arc length, until the parameter has come to one of its bounds.
-  subroutine follow(self, scene, context)
+  subroutine follow(self, periodic, context)
     class(periodic_type), intent(inout) :: self
-    type(scene_type), intent(in) :: scene
+    type(periodic_case_type), intent(in) :: periodic
     type(run_context_type), intent(in) :: context
     type(condition_type) :: condition
     type(derivative_type) :: learnt
@@ -382,10 +322,10 @@ contains
     integer :: iterations, last
     logical :: at_bound, found
 
-    step = 0.3_wp*scene%periodic%step
+    step = 0.3_wp*periodic%step
     last = size(x)
     allocate (condition%row(last, conditions))
-    do while (size(self%table%orbit) < scene%periodic%points)
+    do while (size(self%table%orbit) < periodic%points)
       taken = step_within(self%bounds, self%x(last), self%way(last), step, at_bound)
       x = self%x + taken*self%way
       condition%row(:, 1) = self%phase(self%x)
@@ -398,8 +338,8 @@ contains
       found = shoot(self%map, condition, learnt, x, y, iterations)
       if (stop_agreed()) return
       if (found) then
-        if (self%map%smallest_gap < scene%solver%touch_down_gap .and. .not. scene%shaft_contact%present) then
-          self%ending = 'the shaft touches down'
+        self%ending = self%map%touches_down()
+        if (self%ending /= '') then
           self%lacking = words_at(self%map, self%x, self%bounds(2))
           return
         end if
@@ -407,7 +347,7 @@ contains
       end if
       if (found) then
         call swap(self%x, x)
-        found = self%keep_orbit(scene, context, y, iterations)
+        found = self%keep_orbit(periodic, context, y, iterations)
         if (.not. found) call swap(self%x, x)
       end if
       if (found) then
@@ -417,11 +357,11 @@ contains
           return
         end if
         call self%turn_way(taken)
-        if (iterations <= easy) step = min(1.5_wp*step, scene%periodic%step)
+        if (iterations <= easy) step = min(1.5_wp*step, periodic%step)
         if (iterations >= hard) step = 0.7_wp*step
       else
         step = 0.5_wp*taken
-        if (step < shortest*scene%periodic%step) then
+        if (step < shortest*periodic%step) then
           self%ending = 'no orbit was found beyond '//value_words(self%map, self%x)//': '//self%map%problem
           self%lacking = words_at(self%map, self%x, self%bounds(2))
           return
@@ -442,6 +382,17 @@ contains
     if (.not. near) self%map%problem = 'the orbit found is on another branch'
   end function is_near
 
+  !> Sum of an orbit's extents, of all places [m].
+  real(wp) function size_of_orbit(orbit) result(all)
+    type(orbit_type), intent(in) :: orbit
+    integer :: i
+
+    all = 0.0_wp
+    do i = 1, size(orbit%place, 1)
+      all = all + orbit%extent(i)
+    end do
+  end function size_of_orbit
+
   !> Whether a limit cycle is next to an equilibrium again.
   logical function is_small(self) result(small)
     class(periodic_type), intent(in) :: self
@@ -449,15 +400,13 @@ contains
 
     small = .false.
     if (.not. self%map%free) return
-    associate (orbit => self%table%orbit(size(self%table%orbit)))
-      small = extent_of(orbit%place(1, :)) + extent_of(orbit%place(2, :)) < share*self%first_extent
-    end associate
+    small = size_of_orbit(self%table%orbit(size(self%table%orbit))) < share*self%first_extent
   end function is_small
 
   !> Learns the map at an orbit that was found, and keeps the orbit; `.false.` where the map fails beside it.
-  logical function keep_orbit(self, scene, context, y, iterations) result(done)
+  logical function keep_orbit(self, periodic, context, y, iterations) result(done)
     class(periodic_type), intent(inout) :: self !! at the orbit
-    type(scene_type), intent(in) :: scene !! what is asked for
+    type(periodic_case_type), intent(in) :: periodic !! what is asked for
     type(run_context_type), intent(in) :: context !! of the run
     real(wp), intent(in) :: y(:) !! what the orbit is mapped to [1]
     integer, intent(in) :: iterations !! that found it
@@ -469,7 +418,7 @@ contains
     call move_alloc(self%map%orbit, orbit%place)
     gap = self%map%smallest_gap
     done = .true.
-    if (self%map%rubs) then ! differences of the map see one side of a contact's stick and slip alone
+    if (any(self%map%film%rubs)) then ! differences of the map see one side of a contact's stick and slip alone
       allocate (floquet%value(0))
     else
       done = find_monodromy(self%map, self%x, y, self%derivative, floquet)
@@ -484,7 +433,7 @@ contains
       end associate
     end if
     call self%table%add(orbit)
-    call context%log%judged(value_words(self%map, self%x)//': '//words_of(orbit, scene%bearing%clearance, self%loss)// &
+    call context%log%judged(value_words(self%map, self%x)//': '//words_of(orbit, self%map%place, self%map%scale(1), self%loss)// &
                             ', '//text(iterations)//' iterations', self%loss == '')
   end function keep_orbit
 
@@ -502,17 +451,19 @@ contains
   function results(self) result(found)
     class(periodic_type), intent(in) :: self !! the orbits
     type(quantity_type), allocatable :: found(:)
+    integer :: i
 
     allocate (found(0))
     if (.not. allocated(self%table%orbit)) return
     associate (last => self%table%orbit(size(self%table%orbit)))
       call add_result(found, 'frequency_ratio', last%value(in_ratio))
-      call add_result(found, 'orbit_x', extent_of(last%place(1, :)))
-      call add_result(found, 'orbit_y', extent_of(last%place(2, :)))
+      do i = 1, size(last%place, 1)
+        call add_result(found, self%table%name_of('orbit_', i), last%extent(i))
+      end do
       call add_result(found, 'minimum_gap_over_time', last%value(in_gap))
-      if (.not. self%map%rubs) call add_result(found, 'largest_multiplier', last%value(in_largest))
+      if (.not. any(self%map%film%rubs)) call add_result(found, 'largest_multiplier', last%value(in_largest))
     end associate
-    if (.not. self%map%rubs) call add_result(found, 'orbit_stable', self%loss == '')
+    if (.not. any(self%map%film%rubs)) call add_result(found, 'orbit_stable', self%loss == '')
     if (self%loss /= '') call add_result(found, 'stability_loss', self%loss)
     if (self%map%free .and. self%map%parameter == moved_speed) then
       call add_result(found, 'onset_speed_rpm', parameter_of(self%map, self%onset%x)*30.0_wp/pi)
