@@ -30,7 +30,7 @@ module gfb_machine_drive
     real(wp), allocatable, private :: mass(:, :)   !! (motion, x and y) of all [kg], [kg m]
     real(wp), allocatable, private :: weight(:, :) !! the same of the shaft
   contains
-    procedure :: force_at
+    procedure :: force_at, turn_with, first_unbalance
   end type machine_drive_type
 
 contains
@@ -108,6 +108,33 @@ contains
     call journal_places(machine%shaft, node_at(machine%shaft, position), push%place, push%sign)
     drive%push = [drive%push, push]
   end subroutine add_push
+
+  !> Another speed, and unbalances in proportion to the first one.
+  pure subroutine turn_with(self, speed, unbalance)
+    class(machine_drive_type), intent(inout) :: self !! the drive
+    real(wp), intent(in) :: speed     !! [rad/s]
+    real(wp), intent(in) :: unbalance !! the first one [kg m]
+    integer :: i
+
+    self%clock%speed = speed
+    self%base%speed = speed
+    self%spread%speed = speed
+    self%push%drive%speed = speed
+    if (.not. self%first_unbalance() > 0.0_wp) return
+    associate (share => unbalance/self%first_unbalance())
+      do i = 1, size(self%push)
+        self%push(i)%drive%unbalance = share*self%push(i)%drive%unbalance
+      end do
+    end associate
+  end subroutine turn_with
+
+  !> The first unbalance of the list; 0 where there is none.
+  pure real(wp) function first_unbalance(self) result(first)
+    class(machine_drive_type), intent(in) :: self !! the drive
+
+    first = 0.0_wp
+    if (size(self%push) > 0) first = self%push(1)%drive%unbalance
+  end function first_unbalance
 
   !> All outer forces on the motions of the machine: weight and loads, pushes at their places or on
   !> all of the shaft, and minus mass times the acceleration of the base.

@@ -30,7 +30,7 @@ module gfb_machine_march
   use gfb_newton, only: newton_report_type, newton_settings_type, solve_nearby, solve_with_factors, has_factors
   implicit none (type)
   private
-  public :: begin_machine_march, take_machine_step, end_machine_march
+  public :: begin_machine_march, resume_from_past, take_machine_step, end_machine_march
   public :: visit_machine_march, resume_machine_march, forget_tangents
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
@@ -38,7 +38,7 @@ module gfb_machine_march
   integer, parameter :: most_iterations = 20 !! of Newton's method on the journals' motions
   !> Of the journals' motions, over the way from where the step before had them expected: that is some times the step's own error.
   real(wp), parameter :: part_of_error = 1.0e-3_wp
-  real(wp), parameter :: finest = 1.0e-9_wp !! but not less than that of the clearance [1]
+  real(wp), parameter :: fine = 1.0e-9_wp !! but not less than that of the clearance [1]
   real(wp), parameter :: enough = 0.03_wp   !! of what journals are off that bearings are solved to on the way [1]
   real(wp), parameter :: nearby = 1.0e-3_wp !! of the clearance, shaft and sleeves that were read differ by less [1]
   real(wp), parameter :: long_ago = 1.0e6_wp !! step before the first one, over that: its difference is backward Euler's [1]
@@ -63,6 +63,8 @@ module gfb_machine_march
     real(wp), allocatable :: size_of(:)      !! of these motions: clearances, and those over half a width [m], [rad]
     real(wp), allocatable :: first_motion(:) !! at the beginning
     real(wp) :: usual = 0.0_wp               !! by how much the place is off that a step begins with, over the clearance [1]
+    real(wp) :: part = part_of_error         !! to which a step is solved, over that way [1]
+    real(wp) :: finest = fine                !! but not less than that of the clearance [1]
     integer :: solves = 0                    !! of Newton's method on the journals' motions, its iterations
     type(shaft_step_type), private :: shaft  !! of the present step
     type(tangent_type), allocatable, private :: tangent(:)
@@ -125,6 +127,23 @@ contains
       PetscCallA(VecDuplicate(bearing%state, tangent%way(k), ierr))
     end do
   end subroutine begin_tangent
+
+  !> Begins with a given past of the shaft instead, in equal steps; films have got theirs (`resume_march`).
+  pure subroutine resume_from_past(motion, rate, march)
+    real(wp), intent(in) :: motion(:, :) !! (all motions, 2) now and one step ago [m], [1]
+    real(wp), intent(in) :: rate(:, :)   !! (all motions, 2) [m/s], [1/s]
+    type(machine_march_type), intent(inout) :: march !! that has begun
+    real(wp) :: weight(0:2)
+    integer :: i
+
+    do i = 1, size(march%film)
+      march%film(i)%past_step = march%film(i)%next
+    end do
+    weight = difference_weights(march%film(1)%next, march%film(1)%next)
+    march%motion(:, :2) = motion
+    march%rate = rate
+    march%motion(:, 3) = motion(:, 2) + (rate(:, 1) - weight(0)*(motion(:, 1) - motion(:, 2)))/weight(2)
+  end subroutine resume_from_past
 
   !> One step; shorter where it does not converge or is too inaccurate.
   !>
@@ -218,7 +237,7 @@ contains
       call prepare_step_of(march%film(i), step, bearing(i)%bearing, place(:, i))
       call predict_step(march%film(i), step, bearing(i)%bearing)
     end do
-    allowed = max(finest, enough*march%usual)
+    allowed = max(march%finest, enough*march%usual)
     do iteration = 1, most_iterations
       call find_forces(machine, bearing, allowed, iteration > 1, march%tangent, force, reason)
       if (reason /= '') return
@@ -226,7 +245,7 @@ contains
       left = free(machine%held) + matmul(march%shaft%flexibility, force) - here
       off = maxval(abs(left)/march%size_of)
       if (iteration == 1) march%usual = off
-      wanted = max(finest, part_of_error*march%usual)
+      wanted = max(march%finest, march%part*march%usual)
       if (off <= wanted .and. allowed <= wanted) exit
       allowed = min(wanted, enough*off)
       change = left

@@ -27,6 +27,9 @@ module gfb_machine_study
   use gfb_shaft_results, only: add_shaft_results, add_bearing_places
   use gfb_machine_equilibrium, only: machine_bearing_type, machine_equilibrium_type, find_machine_equilibrium
   use gfb_machine_transient, only: machine_transient_type, part_archive
+  use gfb_machine_orbits, only: map_of_machine
+  use gfb_period_map, only: period_map_type
+  use gfb_periodic, only: periodic_type
   use gfb_machine_linear, only: linear_bearing_type, linearise_bearing, drop_linear_bearing
   use gfb_machine_modes, only: not_counted
   use gfb_machine_motions, only: machine_motions_type, find_motions, check_waves, add_motions, growth_of
@@ -65,6 +68,7 @@ module gfb_machine_study
     type(machine_motions_type), allocatable :: motions(:) !! small ones about each answer
     type(history_row_type), allocatable :: history(:)     !! of a sweep
     type(machine_transient_type), allocatable :: time !! its way, where that is asked for
+    type(periodic_type), allocatable :: orbits         !! that close, where they are asked for
     real(wp), allocatable :: moving_force(:) !! on the machine over time: weight and loads [N], [N m]
     real(wp) :: onset = 0.0_wp !! speed from which on it whirls; 0: none was found [rpm]
     integer :: counted = not_counted !! modes, when they were counted last
@@ -193,19 +197,35 @@ contains
       if (i > 1) call look_for_onset(self, scene, i, context%log)
     end do
     if (.not. self%reason%is_given()) call answer_unbalance(self, scene, context%log)
-    if (scene%transient%present .and. .not. self%reason%is_given()) then
+    if ((scene%transient%present .or. scene%periodic%present) .and. .not. self%reason%is_given()) then
       do i = 1, merge(0, size(self%part), context%restart%continues)
         call stop_heat(self%part(i)%solution)
       end do
+    end if
+    if (scene%transient%present .and. .not. self%reason%is_given()) then
       self%machine%force = self%moving_force
       allocate (self%time)
       call self%time%run(scene, self%part, self%machine, self%answer, self%bearing, context, self%reason, error)
       if (allocated(error)) return
     end if
+    if (scene%periodic%present .and. .not. self%reason%is_given()) call find_orbits(self, scene, context)
     call count_work(self)
     self%converged = .not. self%reason%is_given()
     if (.not. self%converged) call context%log%tell(self%reason%words())
   end subroutine solve_machine
+
+  !> Orbits of the machine that close, from its equilibrium on.
+  subroutine find_orbits(self, scene, context)
+    class(machine_study_type), target, intent(inout) :: self
+    type(scene_type), intent(in) :: scene !! with `&periodic`
+    type(run_context_type), intent(in) :: context !! of the run
+    class(period_map_type), allocatable :: map
+    real(wp) :: bounds(2)
+
+    call map_of_machine(scene, self%part, self%machine, self%answer, self%bearing, map, bounds)
+    allocate (self%orbits)
+    call self%orbits%run(scene%periodic, context, map, bounds, self%reason)
+  end subroutine find_orbits
 
   !> An equilibrium to begin with: at the first speed, or, where levers lead to none there, at a higher one, from which the speed
   !> then falls. The reason is that of the first speed.
@@ -537,6 +557,10 @@ contains
       series => self%time%series
       summary = [summary, self%time%results()]
       call self%time%history%add_arrays(arrays)
+    end if
+    if (allocated(self%orbits)) then
+      summary = [summary, self%orbits%results()]
+      call self%orbits%add_arrays(arrays)
     end if
     call add_result(summary, 'unknowns', self%unknowns)
     call add_result(summary, 'newton_iterations', self%iterations)
