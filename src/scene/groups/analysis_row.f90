@@ -109,7 +109,9 @@ module gfb_analysis_row
     analysis_row_type(number=5, word='linear_dynamics', is_machine=.true., &
                       groups=of_machines//' sweep dynamics unbalance '), &
     analysis_row_type(number=9, word='transient', is_machine=.true., &
-                      groups=of_machines//' transient unbalance ')]
+                      groups=of_machines//' transient unbalance '), &
+    analysis_row_type(number=10, word='periodic', is_machine=.true., &
+                      groups=of_machines//' periodic unbalance ')]
 
   !> Each at the place of its number.
   type(analysis_row_type), parameter, public :: analysis_rows(*) = &

@@ -139,7 +139,7 @@ contains
 
     refused = unless(analysis%is_machine .or. .not. analysis%is_known(), 'has no use with '// &
                      "analysis = '"//trim(analysis%word)//"': a machine has 'equilibrium', "// &
-                     "'linear_dynamics' and 'transient'")
+                     "'linear_dynamics', 'transient' and 'periodic'")
     call keys%start_group(machine_group, optional=.true., misplaced=refused)
     call keys%real_list_key('lengths', machine%length, longest_list, 'm', &
                             'lengths of the segments of the shaft, from its first end, z = 0, on', &

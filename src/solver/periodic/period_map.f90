@@ -1,11 +1,12 @@
 !> A map over one period: where all that a march remembers is after a number of equal steps of time.
 !>
-!> A state is what films and foils remember (`gfb_film_entries`), and the shaft's motions and their rates, now and one step ago.
-!> As the past is part of it, a state that the map leads back to itself is an orbit whose steps wrap round: it has no first step
-!> that differs from the others. Contacts that always stick stay as they began, so an orbit closes whatever they are.
+!> A state is what films and foils remember (`gfb_film_entries`), and the shaft's motions and their
+!> rates, now and one step ago. As the past is part of it, a state that the map leads back to itself
+!> is an orbit whose steps wrap round: it has no first step that differs from the others. Contacts
+!> that always stick stay as they began, so an orbit closes whatever they are.
 !>
-!> A point x holds the state, the period and one parameter, all over their sizes; every rank has its own unknowns of the films
-!> and all of the rest.
+!> A point x holds the state, the period and one parameter, all over their sizes; every rank has its
+!> own unknowns of the films and all of the rest.
 module gfb_period_map
   use gfb_kinds, only: wp
   use gfb_units, only: pi
@@ -13,14 +14,17 @@ module gfb_period_map
   use gfb_film_entries, only: film_entries_type
   implicit none (type, external)
   private
-  public :: lay_out, pack_shaft, unpack_shaft, dots, length_of, parameter_of, period_of, speed_of, driven_at, last_step
+  public :: lay_out, pack_shaft, unpack_shaft, dots, length_of, parameter_of, period_of, &
+        speed_of, driven_at, last_step
 
-  integer, parameter, public :: moved_speed = 1, moved_unbalance = 2, moved_mass = 3 !! what the parameter is
+  !> what the parameter is
+  integer, parameter, public :: moved_speed = 1, moved_unbalance = 2, moved_mass = 3
   integer, parameter :: parameters = 3
 
   !> The map.
   type, abstract, public :: period_map_type
-    real(wp) :: driven(parameters) = 0.0_wp !! speed [rad/s], unbalance [kg m] and mass [kg], but for the parameter
+    !> speed [rad/s], unbalance [kg m] and mass [kg], but for the parameter
+    real(wp) :: driven(parameters) = 0.0_wp
     integer :: parameter = 0         !! `moved_speed`, ...; 0: none
     logical :: free = .false.        !! the period is an unknown; else it is that of turns
     integer :: turns = 1             !! of the shaft in a period, where it is not free
@@ -30,13 +34,15 @@ module gfb_period_map
     real(wp) :: parameter_scale = 1.0_wp !! [its unit]
     real(wp), allocatable :: scale(:) !! of the shaft's motions [m], [1]
     real(wp) :: clock = 1.0_wp       !! rates over motions [1/s]
-    real(wp), allocatable :: start(:) !! (motions, rates; now, one step ago) of a disturbance that all modes are part of [1]
+    !> (motions, rates; now, one step ago) of a disturbance that all modes are part of [1]
+    real(wp), allocatable :: start(:)
     type(film_entries_type), allocatable :: film(:) !! of each bearing
     integer :: local = 0             !! entries of a point that no other rank has
     integer :: tail = 0              !! those that every rank has; the last: period, parameter
     integer :: periods = 0           !! marched so far
     character(len=32), allocatable :: place(:) !! where orbits are shown
-    real(wp), allocatable :: orbit(:, :) !! (x and y of each place, steps + 1) in the last of the periods [m]
+    !> (x and y of each place, steps + 1) in the last of the periods [m]
+    real(wp), allocatable :: orbit(:, :)
     real(wp) :: smallest_gap = 0.0_wp    !! in it, where the orbit was kept [m]
     character(len=:), allocatable :: problem !! why it had no end
   contains
@@ -47,7 +53,8 @@ module gfb_period_map
   end type period_map_type
 
   abstract interface
-    !> The point at which all rests in its present state, with the drive's parameter and the map's own period.
+    !> The point at which all rests in its present state, with the drive's parameter and the map's
+    !> own period.
     function rest_interface(self) result(x)
       import :: period_map_type, wp
       implicit none (type, external)
@@ -55,21 +62,25 @@ module gfb_period_map
       real(wp), allocatable :: x(:) !! [1]
     end function rest_interface
 
-    !> Gives a point of rest the past of a shaft that is released there, as a march over time has it.
+    !> Gives a point of rest the past of a shaft that is released there, as a march over time has
+    !> it.
     subroutine release_interface(self, x)
       import :: period_map_type, wp
       implicit none (type, external)
-      class(period_map_type), intent(in) :: self !! laid out, its bearings in equilibrium, which is kept
+      !> laid out, its bearings in equilibrium, which is kept
+      class(period_map_type), intent(in) :: self
       real(wp), intent(inout) :: x(:) !! that equilibrium [1]
     end subroutine release_interface
 
-    !> The point one period later, with the same period and parameter; `.false.` where a step has no answer.
+    !> The point one period later, with the same period and parameter; `.false.` where a step has no
+    !> answer.
     !>
     !> A step that would have to be shortened has none: all steps are equal.
     function apply_interface(self, x, y, keep) result(done)
       import :: period_map_type, wp
       implicit none (type, external)
-      class(period_map_type), intent(inout) :: self !! counts periods; gets the orbit; its bearings are left at the end
+      !> counts periods; gets the orbit; its bearings are left at the end
+      class(period_map_type), intent(inout) :: self
       real(wp), intent(in) :: x(:)  !! the point [1]
       real(wp), intent(out) :: y(:) !! one period later [1]
       logical, intent(in) :: keep   !! the smallest gap of the orbit is wanted
@@ -147,7 +158,8 @@ contains
     end do
     associate (shaft => map%local, n => size(map%scale))
       row(shaft + 1:shaft + n) = x(shaft + 1:shaft + n) - x(shaft + n + 1:shaft + 2*n)
-      row(shaft + 2*n + 1:shaft + 3*n) = x(shaft + 2*n + 1:shaft + 3*n) - x(shaft + 3*n + 1:shaft + 4*n)
+      row(shaft + 2*n + 1:shaft + 3*n) = x(shaft + 2*n + 1:shaft + 3*n) - x(shaft + 3*n + &
+            1:shaft + 4*n)
     end associate
   end function last_step
 

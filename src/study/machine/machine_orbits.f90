@@ -28,7 +28,8 @@ contains
     type(part_type), intent(in) :: part(:) !! its bearings
     type(machine_type), target, intent(in) :: machine
     type(machine_equilibrium_type), intent(in) :: answer !! where it rests
-    type(machine_bearing_type), target, intent(inout) :: bearing(:) !! of the parts, there; their journals become held
+    !> of the parts, there; their journals become held
+    type(machine_bearing_type), target, intent(inout) :: bearing(:)
     class(period_map_type), allocatable, intent(out) :: map !! created
     real(wp), intent(out) :: bounds(2) !! of the parameter of a point: begin, end [1]
     type(machine_map_type), allocatable :: own
@@ -44,6 +45,7 @@ contains
     end do
     steady%final_speed_rpm = scene%operation%speed_rpm
     steady%ramp_time = 1.0_wp
+    allocate (steady%base_time(0), steady%base_acceleration_x(0), steady%base_acceleration_y(0))
     own%drive = machine_drive(machine, scene%unbalance, steady, scene%operation)
     body = machine%shaft%body()
     own%driven = [angular_speed(scene%operation%speed_rpm), own%drive%first_unbalance(), body%mass]
@@ -52,7 +54,8 @@ contains
     own%motion = free_motions(answer%held, answer%motion)
     own%place = shown_places(scene%machine)
     own%node = nodes_of_places(machine)
-    own%touch_down_gap = [(merge(0.0_wp, part(i)%scene%solver%touch_down_gap, part(i)%scene%shaft_contact%present), i=1, size(part))]
+    own%touch_down_gap = [(merge(0.0_wp, part(i)%scene%solver%touch_down_gap, &
+          part(i)%scene%shaft_contact%present), i=1, size(part))]
     call set_parameter(scene%periodic, own, bounds)
     call create_machine_map(machine, bearing, own)
     call move_alloc(own, map)

@@ -7,6 +7,7 @@ module gfb_machine_parts
   use gfb_text, only: text
   use gfb_units, only: micrometres
   use gfb_run_log, only: run_log_type
+  use gfb_motion_cases, only: motion_free, follow_nothing
   use gfb_scene, only: scene_type
   use gfb_scene_reading, only: read_scene
   use gfb_analysis_row, only: analysis_equilibrium, analysis_fixed_position
@@ -116,6 +117,9 @@ contains
         why = 'the support of a thrust bearing is rigid: support_stiffness must be 0 there'
       else if (one%model%half_width == half_width_yes .and. machine%journal_tilts) then
         why = "half_width = 'yes' in &model cannot tilt: leave it out, or say journal_tilts = .false. in &machine"
+      else if (scene%periodic%present .and. one%model%foil%has_bumps .and. one%contact%may_rub .and. &
+               (scene%periodic%motion == motion_free .or. scene%periodic%parameter /= follow_nothing)) then
+        why = "contacts rub: with motion = 'free' or a parameter in &periodic friction_top and friction_sleeve must be 0"
       end if
     end associate
   end function why_no_part

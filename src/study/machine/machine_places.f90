@@ -27,6 +27,7 @@ contains
     integer, allocatable :: node(:)
     integer :: i
 
-    node = [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), machine%station]
+    node = [(node_at(machine%shaft, machine%journal(i)%position), i=1, size(machine%journal)), &
+          machine%station]
   end function nodes_of_places
 end module gfb_machine_places

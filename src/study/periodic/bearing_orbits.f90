@@ -4,7 +4,8 @@ module gfb_bearing_orbits
   use gfb_units, only: pi
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
-  use gfb_motion_cases, only: periodic_case_type, motion_free, follow_speed, follow_unbalance, follow_mass
+  use gfb_motion_cases, only: periodic_case_type, motion_free, follow_speed, follow_unbalance, &
+        follow_mass
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_time_march, only: begin_rubbing
@@ -14,14 +15,16 @@ module gfb_bearing_orbits
   private
   public :: map_of_bearing, set_parameter, make_tight
 
-  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp] !! tolerances of a step of time: residual, step [1]
+  !> tolerances of a step of time: residual, step [1]
+  real(wp), parameter :: tight(2) = [1.0e-11_wp, 1.0e-12_wp]
 
 contains
 
   !> The map of a scene, and the bounds of its parameter.
   subroutine map_of_bearing(scene, bearing, newton, map, bounds)
     type(scene_type), intent(in) :: scene !! with `&periodic`
-    type(bearing_system_type), target, intent(inout) :: bearing !! whose shaft is free; begins to rub
+    !> whose shaft is free; begins to rub
+    type(bearing_system_type), target, intent(inout) :: bearing
     type(newton_type), target, intent(inout) :: newton !! its solver; becomes tight
     class(period_map_type), allocatable, intent(out) :: map !! created
     real(wp), intent(out) :: bounds(2) !! of the parameter of a point: begin, end [1]
@@ -66,7 +69,6 @@ contains
     map%steps = periodic%steps_per_turn*map%turns
     map%period_scale = 2.0_wp*pi*map%turns/map%driven(moved_speed)
     final = periodic%final_value
-    map%parameter = 0
     select case (periodic%parameter)
     case (follow_speed)
       map%parameter = moved_speed
@@ -75,6 +77,8 @@ contains
       map%parameter = moved_unbalance
     case (follow_mass)
       map%parameter = moved_mass
+    case default
+      map%parameter = 0
     end select
     bounds = [0.0_wp, 1.0_wp]
     if (map%parameter > 0) bounds = [map%driven(map%parameter), final]

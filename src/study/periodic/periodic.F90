@@ -191,6 +191,7 @@ contains
       found = self%begin_forced(periodic, context)
     end if
     if (found .and. self%map%parameter > 0) call self%follow(periodic, context)
+    call context%log%is_within('')
     if (stop_agreed()) then
       call reason%stopped(' after '//text(self%map%periods)//' periods')
     else if (.not. found) then
@@ -222,6 +223,7 @@ contains
     real(wp) :: y(size(self%x)), none(size(self%x))
     integer :: i, iterations
 
+    call context%log%is_within('the first orbit')
     condition = fixed_parameter(self%x)
     call self%map%release(self%x)
     found = .true.
@@ -252,6 +254,7 @@ contains
     real(wp) :: y(size(self%x))
     integer :: iterations
 
+    call context%log%is_within('onset of whirl')
     found = find_onset(self%map, self%x, self%bounds(2)*self%map%parameter_scale, self%onset)
     if (.not. found) return
     self%x = self%onset%x
@@ -334,6 +337,7 @@ contains
       if (at_bound) condition%row(last, 2) = 1.0_wp
       condition%value = dots(self%map, condition%row, x)
       if (.not. at_bound) x = x + 0.5_wp*taken**2*self%bend
+      call context%log%is_within('orbit '//text(size(self%table%orbit) + 1)//', from '//value_words(self%map, self%x)//' on')
       learnt = self%derivative
       found = shoot(self%map, condition, learnt, x, y, iterations)
       if (stop_agreed()) return

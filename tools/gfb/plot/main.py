@@ -53,7 +53,7 @@ from matplotlib import pyplot  # noqa: E402
 
 from gfb import steps  # noqa: E402
 from gfb.files import fresh  # noqa: E402
-from gfb.plot import animation, dynamics, foil, heat, machine, machine_motions, machine_time, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
+from gfb.plot import animation, dynamics, foil, heat, machine, machine_motions, machine_orbits, machine_time, periodic, polar, ring, rolled, rotor, sample, strip, transient  # noqa: E402
 from gfb.plot.colours import round_numbers  # noqa: E402
 from gfb.plot.film import draw_film, readable  # noqa: E402
 from gfb.plot.scene import case_name, named, read_scene, step_words  # noqa: E402
@@ -172,7 +172,7 @@ def draw(options, paths, files):
     if options.show == heat.KIND:
         return draw_heat(options, path, file)
     if periodic.is_periodic(file) and not (options.show or options.step or options.columns) and len(files) == 1:
-        return periodic.draw(path, file)
+        return (machine_orbits if machine.is_machine(file) else periodic).draw(path, file)
     if options.show in machine_motions.DRAWN or options.show == "campbell" and machine.is_machine(file) or is_machine_at_rest(options, file):
         if len(files) > 1 or options.step or options.columns:
             stop("a machine is drawn of one file, without --step and columns")
