@@ -133,6 +133,27 @@ def check_all_kinds(checks, folder):
     checks.that("support: a push moves it", solve(folder, "pushed", pushed)["orbit_x_bearing_2"] > 1.0e-3*CLEARANCE)
 
 
+def check_foils(checks, folder):
+    """Foils as beams that rub and have mass: nothing moves at rest; an unbalance does move it."""
+    steel = {"youngs_modulus": 214.0e9, "poissons_ratio": 0.29, "density": 8440.0, "thickness": 101.6e-6, "fixed_edge": "trailing"}
+    write_case(folder, "beams", {
+        "scene": {"analysis": "linear_dynamics"}, "bearing": {"radius": 19.05e-3, "length": 38.1e-3, "clearance": 31.8e-6},
+        "gas": {"viscosity": 1.95e-5, "ambient_pressure": 101350.0}, "model": {"foil": "beam"}, "foil_damping": {"foil_mass": "on"},
+        "top_foil": steel, "bump_foil": steel | {"bumps": 26, "height": 0.508e-3, "half_length": 1.778e-3, "pitch": 4.572e-3, "fixed_line": "half_flat"},
+        "contact": {"friction_top": 0.1, "friction_sleeve": 0.1}, "mesh": {"circumferential_elements": 104, "axial_elements": 4},
+        "operation": {"speed_rpm": 3.0e4, "load": (-20.0, 0.0)}, "dynamics": {"frequency_ratios": 1.0}})
+    content = {"scene": {"analysis": "transient"},
+               "shaft": {"lengths": 0.2, "outer_diameters": 0.038, "youngs_modulus": 2.1e11, "poissons_ratio": 0.3, "density": 7800.0},
+               "discs": {"positions": 0.12, "masses": 4.0, "polar_inertias": 0.003},
+               "bearings": {"files": ["beams.nml", "beams.nml"], "positions": [0.03, 0.17]}, "machine": {"speed_rpm": 3.0e4},
+               "transient": {"turns": 0.2, "steps_per_turn": 60}}
+    answer = solve(folder, "still_beams", content)
+    checks.that("beams: their mass counts", "foil mass: of top foil and bumps" in answer.log)
+    checks.below("beams: y at rest", answer["orbit_y_bearing_2"]/CLEARANCE, 1.0e-7)
+    moved = solve(folder, "moved_beams", content | {"unbalance": {"positions": 0.12, "values": 4.0e-6}})
+    checks.that("beams: an unbalance moves them", moved["orbit_y_bearing_2"] > 1.0e-3*CLEARANCE)
+
+
 def check_wrong(checks, folder):
     """Mistakes are named with their rule."""
     content = moving_case(folder, "M1", 10000.0, {"turns": 0.1, "steps_per_turn": 50})
@@ -145,6 +166,8 @@ def check_wrong(checks, folder):
     touching["machine"] = content["machine"] | {"gravity": (-900.0, 0.0)}
     answer = solve(folder, "touching", touching, status=2)
     checks.that("touch-down names bearing and time", "touches down in bearing 2 at time" in answer["reason"])
+    answer = solve(folder, "lost", content | {"machine": content["machine"] | {"gravity": (-9000.0, 0.0)}}, status=2)
+    checks.that("a load that the first bearing does not bear: said", "bearing 1 alone under its load by levers" in answer["reason"])
 
 
 def check_ranks(checks, folder):
@@ -209,7 +232,7 @@ def main():
     """Runs all checks."""
     checks = Checks()
     with tempfile.TemporaryDirectory() as name:
-        for check in ((check_orbits, check_run_up) if "--long" in sys.argv else (check_push, check_rest, check_all_kinds, check_restart, check_ranks, check_wrong)):
+        for check in ((check_orbits, check_run_up) if "--long" in sys.argv else (check_push, check_rest, check_all_kinds, check_foils, check_restart, check_ranks, check_wrong)):
             check(checks, pathlib.Path(name))
     checks.close()
 

@@ -465,6 +465,7 @@ contains
     integer :: i
 
     do i = 1, size(self%part)
+      if (.not. allocated(self%part(i)%solution)) cycle ! one before it had no answer
       associate (newton => self%part(i)%solution%newton)
         self%unknowns = self%unknowns + self%part(i)%solution%bearing%unknowns
         self%iterations = self%iterations + newton%iterations
