@@ -31,7 +31,9 @@ static const char *const alone[][2] = {
 static const size_t alone_settings = sizeof alone/sizeof *alone;
 static int          is_alone       = 0;
 
-/* Ranks that wait give their core to who computes: where other jobs are on it, one rank would keep the other from answering. */
+/* Ranks that wait give their core to who computes: where other jobs are on it, one rank would keep the other from answering. A
+   launched rank without others has nobody to wait for; each of its messages to itself (a hundred thousand in a run with MUMPS)
+   would give its core to other jobs. */
 static const char yielding[] = "OMPI_MCA_mpi_yield_when_idle";
 static int        is_yielding = 0;
 
@@ -153,6 +155,9 @@ static void prepare_alone(void)
   const char *const folders[] = {temporary_folder(), "/tmp"};
 
   if (is_launched()) {
+    const char *ranks = getenv("OMPI_COMM_WORLD_SIZE");
+
+    if (ranks && strcmp(ranks, "1") == 0) return;
     is_yielding = OMPI_MAJOR_VERSION < 5 && !getenv(yielding) && setenv(yielding, "1", 1) == 0;
     return;
   }
