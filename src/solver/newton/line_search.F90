@@ -124,12 +124,12 @@ contains
     PetscCall(SNESLineSearchComputeNorms(search, ierr))
   end subroutine take_step
 
-  !> Error that is left after a step at most: a thousand times what it is if steps go on to shrink as the last two have.
-  pure function remaining_error(line) result(error)
+  !> Error that is left after a step at most: some times what it is if steps go on to shrink as the last two have.
+  pure function remaining_error(line, caution) result(error)
     type(line_search_type), intent(in) :: line !! what the steps have been
+    real(wp), intent(in) :: caution !! that many times [1]
     real(wp) :: error !! relative [1]
     real(wp), parameter :: steady = 0.5_wp !! a step over the one before, where that is known [1]
-    real(wp), parameter :: caution = 1000.0_wp !! two steps are few [1]
 
     error = huge(error)
     if (line%step < steady*line%step_before .and. line%step_before < huge(error)) then

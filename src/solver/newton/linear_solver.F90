@@ -56,6 +56,7 @@ module gfb_linear_solver
 
   real(wp), parameter :: chord_step = 0.02_wp       !! smaller steps leave the factors as they are [1]
   real(wp), parameter :: chord_contraction = 0.2_wp !! kept factors must shrink the steps by this [1]
+  real(wp), parameter :: chord_on_the_way = 0.3_wp  !! the same where few digits are wanted [1]
   real(wp), parameter :: chord_fall = 0.9_wp        !! and the residual by this [1]
 
   real(wp), parameter :: jump = 5.0_wp              !! of the residual at the start of nearby solves, where contacts have changed [1]
@@ -68,6 +69,7 @@ module gfb_linear_solver
     character(len=:), allocatable :: unsolved !! why a linear system was not solved, in words; else empty
     logical :: iterates = .false.             !! linear systems are solved by multigrid
     logical :: left = .false.                 !! multigrid has failed since this was last said
+    real(wp), private :: contraction = chord_contraction !! that kept factors must reach in the present solve [1]
     logical, private :: keep = .false.        !! use the present factors again
     logical :: forgotten = .true.             !! there are no factors since the beginning, or since they were dropped
     logical, private :: ready = .false.       !! they belong to an answer, and no solve has begun since
@@ -221,12 +223,14 @@ contains
   end subroutine choose_solver
 
   !> A solve of the nonlinear equations begins: factors that belong to its start serve once.
-  subroutine begin_solve(solver, times_filled)
+  subroutine begin_solve(solver, times_filled, on_the_way)
     type(linear_solver_type), intent(inout) :: solver !! its kept factors serve once
     integer, intent(in) :: times_filled !! the system's matrix, so far
+    logical, intent(in) :: on_the_way   !! the solve is a stage of another iteration
 
     solver%keep = solver%ready .and. solver%filled == times_filled
     solver%ready = .false.
+    solver%contraction = merge(chord_on_the_way, chord_contraction, on_the_way)
     solver%unsolved = ''
   end subroutine begin_solve
 
@@ -336,7 +340,7 @@ contains
     else if (solver%fresh .or. first) then
       solver%keep = step < chord_step
     else
-      solver%keep = step < chord_contraction*step_before
+      solver%keep = step < solver%contraction*step_before
     end if
     if (.not. small) solver%keep = solver%keep .and. after < chord_fall*before
   end subroutine choose_factors

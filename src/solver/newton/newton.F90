@@ -54,6 +54,8 @@ module gfb_newton
   real(wp), parameter :: roundings = 4.0_wp
 
   real(wp), parameter :: careful = 1.0e-3_wp !! of the step's tolerance, where nothing shows how steps shrink [1]
+  real(wp), parameter :: cautious = 1000.0_wp  !! times what is left if steps go on to shrink: two steps are few [1]
+  real(wp), parameter :: hasty = 3.0_wp        !! the same on the way to another answer [1]
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
 
   !> When to stop.
@@ -288,7 +290,7 @@ contains
     PetscErrorCode :: ierr
     logical :: moved
 
-    call begin_solve(newton%linear, newton%system%times_filled)
+    call begin_solve(newton%linear, newton%system%times_filled, newton%settings%on_the_way)
     newton%rounded = .false.
     newton%line = line_search_type()
     newton%line%straight = newton%settings%straight_steps
@@ -490,9 +492,11 @@ contains
     end if
     if (newton%line%length < 1.0_wp .or. .not. newton%system%settled) return
     small = newton%line%step <= newton%settings%step_tolerance
-    if (newton%secants%used .and. .not. newton%settings%on_the_way) then ! errors of steps of time add up
+    if (newton%secants%used .and. newton%settings%on_the_way) then
+      small = small .or. remaining_error(newton%line, hasty) <= newton%settings%step_tolerance
+    else if (newton%secants%used) then ! errors of steps of time add up
       small = newton%line%step <= careful*newton%settings%step_tolerance
-      small = small .or. remaining_error(newton%line) <= newton%settings%step_tolerance
+      small = small .or. remaining_error(newton%line, cautious) <= newton%settings%step_tolerance
     end if
     if ((newton%linear%fresh .or. newton%system%slow_change) .and. newton%line%step <= stagnation) then
       small = small .or. newton%line%step > 0.5_wp*newton%line%step_before
