@@ -26,6 +26,7 @@ module gfb_march_state
     real(wp) :: tolerance = 1.0e-5_wp   !! error of a step in the shaft's position, over the clearance, then [1]
     real(wp) :: damping = 0.0_wp        !! of an elastic foundation [N s/m^3]
     type(maxwell_arm_type) :: arm       !! beside its springs
+    real(wp) :: unsolved = 0.01_wp      !! of a step's own error, to which its equations are solved [1]
     real(wp) :: loss_time = 0.0_wp      !! viscous losses of meshed foils, over their stiffness [s]
     real(wp) :: end_time = 0.0_wp       !! [s]
   contains
@@ -39,6 +40,7 @@ module gfb_march_state
     real(wp) :: time = 0.0_wp           !! of the present state [s]
     real(wp) :: step = 0.0_wp           !! that led there [s]
     real(wp) :: next = 0.0_wp           !! that is tried next [s]
+    real(wp) :: error = 0.0_wp          !! of that step, in the shaft's position [m]
     integer :: steps = 0                !! taken
     integer :: rejections = 0           !! steps that were taken again, shorter
     !> of the sleeve and its tilt, now and one step ago [m/s], [rad/s]
@@ -170,6 +172,7 @@ contains
     call archive%visit('time', march%time)
     call archive%visit('step', march%step)
     call archive%visit('next', march%next)
+    call archive%visit('error', march%error)
     call archive%visit('steps', march%steps)
     call archive%visit('rejections', march%rejections)
     call archive%visit('velocity', march%velocity)

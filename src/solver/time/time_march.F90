@@ -25,7 +25,7 @@ module gfb_time_march
   use gfb_bearing_system, only: bearing_system_type, bearing_order
   use gfb_bearing_motion, only: begin_dampers, prepare_step, end_step, recall_step, visit_motion, end_motion
   use gfb_film_rates, only: fill_springs
-  use gfb_newton, only: newton_type, newton_report_type, solve_nearby
+  use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, solve_nearby
   implicit none (type)
   private
   public :: begin_rubbing, march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past, find_misfit
@@ -33,6 +33,7 @@ module gfb_time_march
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   integer, parameter :: most_trials = 12 !! of one step
+  real(wp), parameter :: coarsest = 1.0e-5_wp !! to what a step is solved at most, relative [1]
   real(wp), parameter :: unit(2, 2) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
 
 contains
@@ -245,17 +246,24 @@ contains
     type(bearing_system_type), target, intent(inout) :: bearing !! at the newest state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(newton_report_type), intent(out) :: report !! of the last trial
+    type(newton_settings_type) :: settings
     real(wp) :: step, error, place(film_forces)
     integer :: trial
 
     step = allowed_step(march)
+    settings = newton%settings
     do trial = 1, most_trials
       call prepare_step_of(march, step, bearing)
       call predict_step(march, step, bearing)
+      newton%settings%step_tolerance = tolerance_of_step(march, settings%step_tolerance, bearing%clearance)
+      newton%settings%residual_tolerance = max(settings%residual_tolerance, newton%settings%step_tolerance)
+      newton%settings%on_the_way = newton%settings%step_tolerance > settings%step_tolerance ! its part of the error is small already
       call solve_nearby(newton, report)
+      newton%settings = settings
       if (report%converged) then
         place = place_of(bearing)
-        error = error_of(march, step, place)/(march%settings%tolerance*bearing%clearance)
+        march%error = error_of(march, step, place)
+        error = march%error/(march%settings%tolerance*bearing%clearance)
         if (march%settings%steps_per_turn > 0.0_wp .or. error < rejected) exit
         step = next_step(step, error)
       else
@@ -276,6 +284,16 @@ contains
       call drive_at(march, march%time, bearing)
     end if
   end subroutine take_step
+
+  !> To what a step is solved: a part of what the step before was off by its length, which its error adds to that of the march. What
+  !> is not off, such as rest, is solved to the last digits.
+  pure real(wp) function tolerance_of_step(march, fine, clearance) result(tolerance)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: fine !! to the last digits [1]
+    real(wp), intent(in) :: clearance !! [m]
+
+    tolerance = max(fine, min(coarsest, march%settings%unsolved*march%error/clearance))
+  end function tolerance_of_step
 
   !> The state becomes the newest of the past; friction carries its slip along.
   subroutine accept_step(march, step, place, bearing)
