@@ -10,7 +10,7 @@
 !> are made anew with these. The shaft moves by the forces that the films have at the end, to the last digit.
 !>
 !> Films and journals are extrapolated first, and the shaft by these films' forces is off from there: one step of Newton's method by the
-!> tangents at hand, before any film is solved, leaves a hundredth of that way.
+!> tangents at hand, before any film is solved, leaves some hundredths of that way.
 !>
 !> The first step is backward Euler's, which needs no past: of first order once, and so of second order in all.
 module gfb_machine_march
