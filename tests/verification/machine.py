@@ -230,19 +230,19 @@ def compare(checks, words, ours, theirs):
     """Places of all journals, over the largest of their kind."""
     for words_of, columns in (("eccentricity", slice(0, 2)), ("tilt", slice(2, 4))):
         size = numpy.abs(theirs[:, columns]).max()
-        checks.below(f"{words}: {words_of}", numpy.abs(ours[:, columns] - theirs[:, columns]).max()/size, 1.0e-8)
+        checks.below(f"{words}: {words_of}", numpy.abs(ours[:, columns] - theirs[:, columns]).max()/size, 1.0e-11)
 
 
 def check_balance(checks, base, content):
     """Forces and moments of all films carry the weight."""
     force = -numbers(base, FORCES)[:, :2].sum(axis=0)
     weight = base["mass"]*numpy.array(content["machine"]["gravity"])
-    checks.below("forces", numpy.abs(force + weight).max()/numpy.abs(weight).max(), 1.0e-8)
+    checks.below("forces", numpy.abs(force + weight).max()/numpy.abs(weight).max(), 1.0e-11)
     moments = numbers(base, FORCES)[:, 2:].sum(axis=0)
     lever = numpy.array(content["bearings"]["positions"]) - base["centre_of_mass"]
     by_force = -numbers(base, FORCES)[:, :2]*lever[:, None]
     moment = moments + (-by_force[:, 1].sum(), by_force[:, 0].sum())
-    checks.below("moments about the centre of mass", numpy.abs(moment).max()/(numpy.abs(weight).max()*numpy.abs(lever).max()), 1.0e-7)
+    checks.below("moments about the centre of mass", numpy.abs(moment).max()/(numpy.abs(weight).max()*numpy.abs(lever).max()), 1.0e-11)
 
 
 def check_shaft(checks, base, content):

@@ -8,7 +8,7 @@ module gfb_shaft_element
   use gfb_units, only: pi
   implicit none (type, external)
   private
-  public :: cowper_coefficient, shaft_section, element_matrices, section_forces
+  public :: cowper_coefficient, shaft_section, element_matrices, section_forces, strain_product
 
   integer, parameter, public :: element_size = 4 !! w and psi of both ends
 
@@ -134,6 +134,34 @@ contains
       element%weight = element%weight + share(i)*length*section%mass*displacement
     end do
   end function element_matrices
+
+  !> \( U^T K V \) by how the ends are turned against the chord, which rigid motions leave to the last
+  !> digit: those of an element that is short cancel in K by as many digits as its stiffness has more
+  !> than the shaft's.
+  pure function strain_product(section, length, left, right) result(product)
+    type(shaft_section_type), intent(in) :: section !! of the element
+    real(wp), intent(in) :: length !! [m]
+    real(wp), intent(in) :: left(:, :), right(:, :) !! U, V (end's motion, column) [m], [1]
+    real(wp) :: product(size(left, 2), size(right, 2)) !! [J] where columns are motions
+    real(wp) :: phi, turned(2, size(left, 2)), moment(2, size(right, 2))
+
+    phi = shear_number(section, length)
+    turned = against_chord(length, left)
+    moment = against_chord(length, right)
+    moment = section%bending/(length*(1.0_wp + phi))* &
+             matmul(reshape([4.0_wp + phi, 2.0_wp - phi, 2.0_wp - phi, 4.0_wp + phi], [2, 2]), moment)
+    product = matmul(transpose(turned), moment)
+  end function strain_product
+
+  !> Slopes of both ends against the chord between them.
+  pure function against_chord(length, ends) result(turned)
+    real(wp), intent(in) :: length !! [m]
+    real(wp), intent(in) :: ends(:, :) !! w and psi of both (end's motion, column) [m], [1]
+    real(wp) :: turned(2, size(ends, 2)) !! [1]
+
+    turned(1, :) = ends(2, :) - (ends(3, :) - ends(1, :))/length
+    turned(2, :) = ends(4, :) - (ends(3, :) - ends(1, :))/length
+  end function against_chord
 
   !> A column times itself as a row.
   pure function square(column)

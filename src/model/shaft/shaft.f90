@@ -12,7 +12,7 @@
 module gfb_shaft
   use gfb_kinds, only: wp
   use gfb_shaft_element, only: shaft_section_type, element_matrices_type, element_size, &
-                               element_matrices, section_forces
+                               element_matrices, section_forces, strain_product
   implicit none (type, external)
   private
   public :: build_shaft, journal_places, node_at
@@ -53,7 +53,7 @@ module gfb_shaft
     real(wp), allocatable :: weight(:)        !! force of an acceleration of 1 [kg], [kg m]
     real(wp) :: material_damping = 0.0_wp     !! tau [s]
   contains
-    procedure :: coordinates, body, bending
+    procedure :: coordinates, body, bending, strain_products
   end type shaft_type
 
 contains
@@ -180,6 +180,22 @@ contains
     body%transverse_inertia = dot_product(turned, matmul(self%mass, turned))
     body%polar_inertia = dot_product(turned, matmul(self%polar, turned))
   end function body
+
+  !> \( U^T K V \) of motions in one plane, to the last digits of each element's strains.
+  pure function strain_products(self, left, right) result(product)
+    class(shaft_type), intent(in) :: self !! the shaft
+    real(wp), intent(in) :: left(:, :), right(:, :) !! U, V (motion, column) [m], [1]
+    real(wp) :: product(size(left, 2), size(right, 2)) !! [J] where columns are motions
+    integer :: i
+
+    product = 0.0_wp
+    do i = 1, size(self%section)
+      associate (first => 2*i - 1, last => 2*i - 2 + element_size)
+        product = product + strain_product(self%section(i), self%z(i + 1) - self%z(i), &
+                                           left(first:last, :), right(first:last, :))
+      end associate
+    end do
+  end function strain_products
 
   !> Bending moment and shear force at both ends of each element, in one plane.
   pure function bending(self, motion, acceleration) result(force)

@@ -41,6 +41,7 @@ module gfb_machine_equilibrium
   integer, parameter :: most_steps = 60 !! of Newton's method
   real(wp), parameter :: tolerance = 1.0e-10_wp !! of a motion, over the clearance [1]
   real(wp), parameter :: balanced = 1.0e-9_wp   !! imbalance over the load [1]
+  real(wp), parameter :: no_more = 1.0e-12_wp   !! the same with which no further step is taken [1]
   real(wp), parameter :: longest = 0.25_wp      !! step of a journal, over its clearance [1]
   real(wp), parameter :: least_load = 1.0e-6_wp !! that an imbalance is measured against, over p_a D L [1]
   real(wp), parameter :: slow = 0.3_wp          !! of the imbalance that is left by a step with which Z is made anew [1]
@@ -207,7 +208,7 @@ contains
       left = imbalance_of(answer)
       norm = norm2(left/of_force)
       call log%detail('machine: step '//text(answer%steps)//', share '//text(share, 3)//', imbalance '//text(norm, 3))
-      if (done .or. norm < balanced*1.0e-2_wp) exit
+      if (done .or. norm < no_more) exit
       idle = idle + 1
       if (norm < progress*best) idle = 0
       if (idle == 0) best = norm
