@@ -135,9 +135,9 @@ contains
     end do
   end function element_matrices
 
-  !> \( U^T K V \) by how the ends are turned against the chord, which rigid motions leave to the last
-  !> digit: those of an element that is short cancel in K by as many digits as its stiffness has more
-  !> than the shaft's.
+  !> \( U^T K V \) by how the ends are turned against the chord, which rigid motions leave to the
+  !> last digit: those of an element that is short cancel in K by as many digits as its stiffness
+  !> has more than the shaft's.
   pure function strain_product(section, length, left, right) result(product)
     type(shaft_section_type), intent(in) :: section !! of the element
     real(wp), intent(in) :: length !! [m]
@@ -149,7 +149,8 @@ contains
     turned = against_chord(length, left)
     moment = against_chord(length, right)
     moment = section%bending/(length*(1.0_wp + phi))* &
-             matmul(reshape([4.0_wp + phi, 2.0_wp - phi, 2.0_wp - phi, 4.0_wp + phi], [2, 2]), moment)
+             matmul(reshape([4.0_wp + phi, 2.0_wp - phi, 2.0_wp - phi, 4.0_wp + phi], [2, 2]), &
+                    moment)
     product = matmul(transpose(turned), moment)
   end function strain_product
 

@@ -53,7 +53,7 @@ module gfb_machine
     integer :: along = 0                  !! place of the shaft's motion along z; 0: it has none
     type(moving_sleeve_type), allocatable :: sleeve(:) !! those that have supports
     type(shaft_heat_type) :: heat         !! along the shaft, where it conducts
-    real(wp), allocatable :: support(:)   !! stiffness that holds each motion behind the shaft's [N/m]
+    real(wp), allocatable :: support(:)   !! stiffness of each motion behind the shaft's [N/m]
     real(wp), allocatable :: force(:)     !! on the shaft: weight and loads [N], [N m]
     real(wp) :: speed = 0.0_wp            !! [rad/s]
     integer, allocatable :: station(:)    !! nodes of discs and further places
@@ -229,14 +229,14 @@ contains
 
   !> The shaft at rest, held at its journals.
   !>
-  !> What is left of the equations by rounding goes into S and g of `hold_shaft` in the first power:
-  !> where elements are short ten digits stay. With Y, the motions that follow unit ones of journals,
-  !> and w, where the loads alone bring the rest,
+  !> What is left of the equations by rounding goes into S and g of `hold_shaft` in the first
+  !> power: where elements are short ten digits stay. With Y, the motions that follow unit ones of
+  !> journals, and w, where the loads alone bring the rest,
   !>
   !> $$ S = Y^T H Y, \quad g = Y^T (r - H w), $$
   !>
-  !> in which it goes in the second power, as errors of a motion go into its energy, and products with
-  !> H are those of strains.
+  !> in which it goes in the second power, as errors of a motion go into its energy, and products
+  !> with H are those of strains.
   pure subroutine hold_at_rest(machine, place, held, regular)
     type(machine_type), intent(in) :: machine
     integer, intent(in) :: place(:) !! of the motions that are held among all
@@ -257,13 +257,15 @@ contains
     end do
     product = stiffness_products(machine, motion)
     held%stiffness = product(:size(place), :size(place))
-    held%force = matmul(machine%force, motion(:, :size(place))) - product(:size(place), size(place) + 1)
+    held%force = matmul(machine%force, motion(:, :size(place))) - &
+                 product(:size(place), size(place) + 1)
   end subroutine hold_at_rest
 
   !> \( U^T H U \) of motions at rest, with the circulation of the shaft's material.
   pure function stiffness_products(machine, motion) result(product)
     type(machine_type), intent(in) :: machine
-    real(wp), intent(in) :: motion(:, :) !! U (motion, column), journals relative to sleeves [m], [1]
+    !> U (motion, column), journals relative to sleeves [m], [1]
+    real(wp), intent(in) :: motion(:, :)
     real(wp) :: product(size(motion, 2), size(motion, 2)) !! [J]
     real(wp) :: true(size(motion, 1), size(motion, 2))
     integer :: k, n
@@ -272,9 +274,11 @@ contains
       true(:, k) = true_motions(machine%sleeve, motion(:, k))
     end do
     n = machine%shaft%coordinates()/2
-    associate (x => true(:n, :), y => true(n + 1:2*n, :), further => true(2*n + 1:, :), shaft => machine%shaft)
+    associate (x => true(:n, :), y => true(n + 1:2*n, :), further => true(2*n + 1:, :), &
+               shaft => machine%shaft)
       product = shaft%strain_products(x, x) + shaft%strain_products(y, y) + &
-                machine%speed*shaft%material_damping*(shaft%strain_products(x, y) - shaft%strain_products(y, x)) + &
+                machine%speed*shaft%material_damping* &
+                (shaft%strain_products(x, y) - shaft%strain_products(y, x)) + &
                 matmul(transpose(further), spread(machine%support, 2, size(further, 2))*further)
     end associate
   end function stiffness_products
