@@ -17,7 +17,7 @@ module gfb_rotor
   implicit none (type, external)
   private
   public :: has_conical, kinds_of, motion_of, inertia_of, gyration_of, dynamic_matrix, planar_part, inertia_rate, determinant, &
-            inverse, whirl_sense
+            inverse, whirl_sense, words_of_sense
 
   integer, parameter, public :: cylindrical = 1, conical = 2 !! kinds of motion
   integer, parameter, public :: planar = 2 !! coordinates of each
@@ -157,4 +157,15 @@ contains
     complex(wp), intent(in) :: q(planar) !! in any unit [SI]
     sense = -2.0_wp*aimag(conjg(q(1))*q(2))/max(tiny(1.0_wp), sum(abs(q)**2))
   end function whirl_sense
+
+  !> The same in words.
+  pure function words_of_sense(sense) result(words)
+    real(wp), intent(in) :: sense !! 1 of a circle with the speed [1]
+    character(len=:), allocatable :: words
+    real(wp), parameter :: circular = 0.05_wp !! a smaller sense goes to and fro [1]
+
+    words = 'to and fro'
+    if (sense > circular) words = 'forward'
+    if (sense < -circular) words = 'backward'
+  end function words_of_sense
 end module gfb_rotor

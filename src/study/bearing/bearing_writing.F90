@@ -62,13 +62,13 @@ module gfb_bearing_writing
     column_type('running_clearance', 'clearance [um]', 1.0e6_wp), &
     column_type('shaft_temperature', 'shaft [C]', 1.0_wp, zero=ice_point), &
     column_type('maximum_film_temperature', 'hottest film [C]', 1.0_wp, zero=ice_point), &
+    column_type('critical_mass', 'crit. mass [kg]', 1.0_wp), &
+    column_type('growth_rate', 'growth [1/s]', 1.0_wp), &
     column_type('force_x', 'force_x [N]', 1.0_wp, 'force_y'), &
     column_type('force_y', 'force_y [N]', 1.0_wp, 'force_x'), &
     column_type('torque_x', 'torque_x [N m]', 1.0_wp, 'torque_y'), &
     column_type('torque_y', 'torque_y [N m]', 1.0_wp, 'torque_x'), &
     column_type('friction_torque', 'friction [N m]', 1.0_wp), &
-    column_type('critical_mass', 'crit. mass [kg]', 1.0_wp), &
-    column_type('growth_rate', 'growth [1/s]', 1.0_wp), &
     column_type('branch_changed', 'other branch', 1.0_wp)]
 
   real(wp), parameter :: rough_limit = 10.0_wp !! cell Peclet number above which Galerkin may oscillate [1]

@@ -23,7 +23,7 @@ module gfb_dynamics
   use gfb_foil_mass_choice, only: choose_mass, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
   use gfb_whirl, only: whirl_type, find_critical_mass
-  use gfb_rotor, only: rotor_type, conical
+  use gfb_rotor, only: rotor_type, conical, words_of_sense
   use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes, find_axial_mode, rotor_mode_type
   use gfb_mode_owner, only: is_of_shaft, of_both
   use gfb_dynamics_record, only: dynamics_record_type, dynamics_point_type, stiffness_of, damping_of, mode_numbers, &
@@ -37,7 +37,6 @@ module gfb_dynamics
 
   integer, parameter :: mode_digits = 5
   real(wp), parameter :: dead = 0.9_wp !! a mode with a larger damping ratio is not shown [1]
-  real(wp), parameter :: circular = 0.05_wp !! a smaller sense goes to and fro [1]
   character(len=*), parameter :: owners(4) = [character(len=14) :: 'rotor', 'foil', 'film', 'rotor and foil'] !! of modes, by number
 
 contains
@@ -536,10 +535,7 @@ contains
     character(len=:), allocatable :: words
 
     words = ''
-    if (.not. aimag(mode%rate) > 0.0_wp) return
-    words = ' to and fro'
-    if (mode%sense > circular) words = ' forward'
-    if (mode%sense < -circular) words = ' backward'
+    if (aimag(mode%rate) > 0.0_wp) words = ' '//words_of_sense(mode%sense)
   end function sense_words
 
   !> A mode of foil or film that is damped less than all of the rotor.

@@ -173,8 +173,9 @@ contains
   end subroutine follow
 
   !> Shows and writes critical speeds.
-  subroutine add_critical_speeds(critical, log, summary, arrays)
+  subroutine add_critical_speeds(critical, responses, log, summary, arrays)
     type(critical_speed_type), intent(in) :: critical(:)
+    type(machine_response_type), intent(in) :: responses(:) !! between whose speeds they were looked for
     type(run_log_type), intent(in) :: log !! where lines go
     type(quantity_type), allocatable, intent(inout) :: summary(:) !! gets speeds and factors
     type(case_array_type), allocatable, intent(inout) :: arrays(:) !! of the result file
@@ -182,7 +183,11 @@ contains
     character(len=:), allocatable :: words
     integer :: i
 
-    if (size(critical) == 0) return
+    if (size(critical) == 0) then
+      if (size(responses) > 2) call log%line('critical speed   none found between '//text(minval(speed_rpm_of(responses)), 6)//' and '// &
+                                             text(maxval(speed_rpm_of(responses)), 6)//' rpm')
+      return
+    end if
     do i = 1, size(critical)
       associate (one => critical(i)%resonance, z => critical(i)%position)
         words = 'critical speed   '//text(one%critical, 6)//' rpm: '//text(one%largest*micrometres, 4)//' um at '//text(z*1.0e3_wp, 4)//' mm'

@@ -19,7 +19,7 @@ module gfb_machine_motions
   use gfb_machine_modes, only: find_machine_modes
   use gfb_machine_response, only: machine_response_type, find_machine_response
   use gfb_unbalance_results, only: unbalance_force, shown_nodes
-  use gfb_rotor, only: whirl_sense
+  use gfb_rotor, only: whirl_sense, words_of_sense
   implicit none (type)
   private
   public :: find_motions, check_waves, add_motions, growth_of, frequency_of
@@ -140,12 +140,12 @@ contains
       call log%line('modes            none up to the highest frequency asked for')
       return
     end if
-    call log%line('mode   frequency [Hz]   over speed   growth [1/s]   log decrement')
+    call log%line('mode   frequency [Hz]   over speed   growth [1/s]   log decrement   sense')
     do i = 1, size(mode)
       associate (rate => mode(i)%rate)
         call log%line(right_text(text(i), 4)//right_text(text(aimag(rate)/turn, 5), 17)// &
                       right_text(text(aimag(rate)/max(machine%speed, tiny(1.0_wp)), 4), 13)// &
-                      right_text(text(real(rate, wp), 4), 15)//right_text(text(-turn*real(rate, wp)/aimag(rate), 4), 16))
+                      right_text(text(real(rate, wp), 4), 15)//right_text(text(-turn*real(rate, wp)/aimag(rate), 4), 16)//'   '//words_of_sense(sense_of(mode(i)%shape)))
       end associate
     end do
   end subroutine show_modes

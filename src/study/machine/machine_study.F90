@@ -544,7 +544,7 @@ contains
           call show_response(self%machine, last, context%log)
         end associate
         call add_responses(self%machine, self%responses, scene%sweep%present .or. size(scene%dynamics%response_speeds) > 0, arrays)
-        call add_critical_speeds(self%critical, context%log, summary, arrays)
+        call add_critical_speeds(self%critical, self%responses, context%log, summary, arrays)
       end if
     end if
     do i = 1, size(self%part)
