@@ -214,6 +214,9 @@ class BlowerTest(unittest.TestCase):
             case[f"bearing_{number}%mesh%{'radial' if number == 3 else 'axial'}_elements"] = 6 if number == 3 else 4
         with tempfile.TemporaryDirectory() as folder:
             answer = gfb.run(case, folder, "blower")
+            self.assertNotIn("warning", answer.log)  # of samples beside springs that relax some are no modes
+            self.assertRegex(answer.log, r"(?m)^ +1 +7\d\.\d+ .* to and fro$")
+            self.assertRegex(answer.log, r"(?m)^ +2 +1[23]\d\.\d+ .* forward$")
             self.assertAlmostEqual(answer["mass"], 2.2, delta=0.05)
             self.assertLess(answer["growth_rate"], -20.0)
             self.assertAlmostEqual(abs(answer["force_z_3"]), 120.0, delta=1.0e-6)

@@ -36,6 +36,8 @@ module gfb_machine_modes
   real(wp), parameter :: farthest = 0.1_wp      !! from its start is another mode, over the rate [1]
   real(wp), parameter :: same = 1.0e-6_wp       !! rates that near are one [1]
   real(wp), parameter :: most_damped = 0.9_wp   !! damping ratio of a mode that is looked for [1]
+  !> Of one that amplifies nothing. Beside springs that relax as fast the samples show some that are none.
+  real(wp), parameter :: no_resonance = 0.5_wp
   real(wp), parameter :: lowest = 0.02_wp       !! frequency of one over the highest [1]
   real(wp), parameter :: beyond = 1.01_wp       !! the same of the highest [1]
 
@@ -51,6 +53,7 @@ contains
     character(len=:), allocatable, intent(out) :: reason !! why some may be missing; empty where none are
     integer, intent(inout) :: counted !! modes that there were when they were counted last, or `not_counted`
     type(machine_mode_type), allocatable :: start(:), others(:)
+    character(len=:), allocatable :: words
     integer, allocatable :: order(:)
     real(wp) :: centre, limits(2)
     logical :: counts
@@ -61,6 +64,7 @@ contains
     call circle_limits(linear, highest, centre, limits, counts)
     if (.not. counts) call log%detail('machine: modes are not counted: no determinant, a loss factor, or springs that relax within the circle')
     do round = 1, size(start_tolerance)
+      reason = '' ! of the round before, which this one answers
       call take_samples(machine, linear, highest, round, log, reason)
       if (reason /= '') return
       call find_starts(machine, linear, highest, start, reason)
@@ -70,10 +74,16 @@ contains
         call log%detail('machine: mode may be near '//text(aimag(start(i)%rate), 6)//' rad/s, growth '//text(real(start(i)%rate, wp), 5))
         call take_mode(machine, linear, start(i), mode)
         if (start(i)%sharp .or. abs(start(i)%rate - centre) > limits(1)) cycle
-        reason = 'a mode near '//text(aimag(start(i)%rate), 4)//' rad/s, growth '//text(real(start(i)%rate, wp), 3)// &
-                 ' 1/s, was not found with the coefficients at its own rate'
+        words = 'a mode near '//text(aimag(start(i)%rate), 4)//' rad/s, growth '//text(real(start(i)%rate, wp), 3)// &
+                ' 1/s, was not found with the coefficients at its own rate'
+        if (.not. counts .and. -real(start(i)%rate, wp) > no_resonance*abs(start(i)%rate)) then
+          call log%detail('machine: '//words//'; it would amplify nothing')
+        else
+          reason = words
+        end if
       end do
-      if (.not. counts .or. (size(mode) == counted .and. reason == '')) exit
+      if (reason == '' .and. (.not. counts .or. size(mode) == counted)) exit
+      if (.not. counts) cycle
       do i = 1, size(start)
         if (.not. is_wanted(start(i)%rate, highest) .and. abs(start(i)%rate - centre) < limits(2)) then
           call take_mode(machine, linear, start(i), others)
