@@ -422,6 +422,19 @@ class RotorTest(unittest.TestCase):
         numpy.testing.assert_allclose(shown[0].get_ydata(), (3.0/numpy.hypot(3.0, 40.0), -6.0/numpy.hypot(6.0, 80.0)))
         self.assertEqual(above.get_ylabel(), "frequency [Hz]")
 
+    def test_a_branch_goes_on_as_it_came(self):
+        """A mode that rises fast is followed past one that is nearer, by its last two points; one that goes round the other way is farther."""
+        speed = numpy.array([10.0, 20.0, 30.0, 40.0, 50.0, 60.0])
+        rate = numpy.array([[-56.0 + 734.0j, -115.0 + 1573.0j], [-50.0 + 874.0j, -96.0 + 1533.0j], [-48.0 + 1054.0j, -87.0 + 1564.0j],
+                            [-42.0 + 1141.0j, -83.0 + 1592.0j], [-38.0 + 1258.0j, -85.0 + 1630.0j], [-28.0 + 1479.0j, -87.0 + 1772.0j]])
+        flat, there = numpy.zeros(rate.shape), numpy.ones(rate.shape, bool)
+        way = [(point, mode) for mode in range(2) for point in range(6)]
+        self.assertEqual(sum(plot_rotor.branches(speed, rate, flat, flat, there), []), way)
+        crossed = numpy.array([[-1.0 + 100.0j, -1.0 + 110.0j], [-1.0 + 106.0j, -1.0 + 103.0j]])
+        for sense, other in ((numpy.array([[1.0, -1.0], [1.0, -1.0]]), 0), (numpy.array([[1.0, -1.0], [-1.0, 1.0]]), 1)):
+            found = plot_rotor.branches(speed[:2], crossed, sense, flat[:2], there[:2])
+            self.assertEqual(found, [[(0, 0), (1, other)], [(0, 1), (1, 1 - other)]])
+
     def test_branches_follow_the_modes_whatever_their_order(self):
         """Two modes change places in the list, one is there at one speed alone, one is the foil's."""
         rows = [[(-3.0, 40.0, 0.9), (-5.0, 90.0, 0.9), (-0.1, 60.0, 1.0e-4)], [(-2.0, 92.0, 0.9), (-4.0, 45.0, 0.9), (-0.1, 61.0, 1.0e-4)],

@@ -111,7 +111,7 @@ def draw_campbell(path, file):
     ends = numpy.array([0.0, 1.05*speed.max()])
     for ratio, words, style in ((1.0, "1 x speed", "k-."), (0.5, "1/2 x", "k:")):
         above.plot(ends, ratio*ends/60.0, style, linewidth=1.0, label=words)
-    joined = branches(modes["growth"] + 1j*modes["frequency"], numpy.ones(hertz.shape), shown)
+    joined = branches(speed, modes["growth"] + 1j*modes["frequency"], modes["sense"], numpy.ones(hertz.shape), shown)
     crossings = []
     for branch in joined:
         place = tuple(numpy.array(branch).T)

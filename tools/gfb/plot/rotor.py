@@ -68,28 +68,37 @@ def rates(modes):
         return modes["frequency"]*(1j - modes["damping_ratio"]/numpy.sqrt(1.0 - modes["damping_ratio"]**2))
 
 
-def branches(rate, kind, shown):
-    """Modes of neighbouring points that are one: of the same kind, and each the nearest of the other's point; lists of (point, mode)."""
+def branches(speed, rate, sense, kind, shown):
+    """Modes of neighbouring points that are one: of the same kind, and each the nearest of the other's point; lists of (point, mode). Where a
+    branch is wanted next is by its last two points; what goes round another way is farther, by up to three times."""
     found: list[list[tuple[int, int]]] = []
-    open_ends: dict[int, list[tuple[int, int]]] = {}
+    ends: list[list[tuple[int, int]]] = []
     for point in range(len(rate)):
-        ends = {}
-        for mode in numpy.flatnonzero(shown[point]):
-            before = nearest(rate, kind, shown, point - 1, rate[point, mode], kind[point, mode]) if point else None
-            if before is not None and nearest(rate, kind, shown, point, rate[point - 1, before], kind[point, mode]) == mode:
-                ends[mode] = open_ends[before]
-            else:
-                ends[mode] = []
-                found.append(ends[mode])
-            ends[mode].append((point, mode))
-        open_ends = ends
+        here = [(point, int(mode)) for mode in numpy.flatnonzero(shown[point])]
+        away = numpy.full((len(here), len(ends)), numpy.inf)
+        for column, branch in enumerate(ends):
+            wanted, last = predicted(speed, rate, branch, point), branch[-1]
+            for row, mode in enumerate(here):
+                if kind[mode] == kind[last]:
+                    away[row, column] = abs(rate[mode] - wanted)*(1.0 + abs(sense[mode] - sense[last]))
+        joined = []
+        for row, mode in enumerate(here):
+            column = int(numpy.argmin(away[row])) if ends else 0
+            fits = bool(ends) and numpy.isfinite(away[row, column]) and int(numpy.argmin(away[:, column])) == row
+            branch = ends[column] if fits else []
+            if not fits:
+                found.append(branch)
+            branch.append(mode)
+            joined.append(branch)
+        ends = joined
     return found
 
 
-def nearest(rate, kind, shown, point, wanted, own):
-    """The mode of a point that is nearest to a rate; None where none is of the kind."""
-    far = numpy.where(shown[point] & (kind[point] == own), numpy.abs(rate[point] - wanted), numpy.inf)
-    return int(numpy.argmin(far)) if numpy.isfinite(far).any() else None
+def predicted(speed, rate, branch, point):
+    """The rate of a branch at a point, on the line through its last two."""
+    last, before = rate[branch[-1]], rate[branch[-2]] if len(branch) > 1 else None
+    step = speed[branch[-1][0]] - speed[branch[-2][0]] if len(branch) > 1 else 0.0
+    return last if before is None or not step > 0.0 else last + (last - before)*(speed[point] - speed[branch[-1][0]])/step
 
 
 def draw_campbell(path, file):
@@ -107,7 +116,7 @@ def draw_campbell(path, file):
     with numpy.errstate(invalid="ignore"):
         vibrates = (damping < DEAD) & (hertz > 0.0)
         shown = vibrates & of_rotor(modes)
-    for branch in branches(rates(modes), modes["kind"], shown):
+    for branch in branches(speed, rates(modes), modes["sense"], modes["kind"], shown):
         place = tuple(numpy.array(branch).T)
         for chart, values in ((above, hertz), (below, damping)):
             chart.plot(speed[place[0]], values[place], color=f"C{int(modes['kind'][place][0]) - 1}", linewidth=1.2)
