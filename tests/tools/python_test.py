@@ -24,9 +24,10 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb import result_names  # noqa: E402
-from gfb.design_study import rows_of  # noqa: E402
+from gfb.design_study import parts_of, rows_of  # noqa: E402
 from gfb.design_work import Part, Progress, computed, tilt_words  # noqa: E402
 from gfb.program import find_program, launcher, read_keys  # noqa: E402
+from gfb.report import main as report  # noqa: E402
 from gfb.results import Unreadable, read_history  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 from slow import slow  # noqa: E402
@@ -195,6 +196,29 @@ class PythonTest(unittest.TestCase):
             case["bearing%radius"] = -1.0
             gfb.design(case, self.folder, "wrong", tell=said.append)
 
+    def test_limits_of_a_study(self):
+        """Those of the case hold where the bearing runs, not where a part looks for its end."""
+        case = gfb.Case(SMALL | {"rotor": {"mass": 2.0}, "capacity": {"highest_temperature": 420.0, "largest_stress": 4.0e8}})
+        limits = {part.name: part.case.groups.get("capacity", {}) for part in parts_of(case, None, 2.5) if part.case is not None}
+        self.assertEqual(limits["point"], {"highest_temperature": 420.0, "largest_stress": 4.0e8})
+        self.assertEqual(limits["orbit"], limits["point"])
+        self.assertEqual((limits["capacity"], limits["misalignment"], limits["whirl"]), ({"smallest_gap": 4.0e-6}, {"smallest_gap": 4.0e-6}, {}))
+
+    def test_pictures_in_time(self):
+        """No picture of a part is begun after its time, and what is left out is said."""
+        result = gfb.run(gfb.Case(SMALL), self.folder)
+        given, said = [], []
+
+        def drawn(_, __, seconds):
+            given.append(seconds)
+            time.sleep(0.6)
+            return "picture"
+
+        with unittest.mock.patch("gfb.report.main.drawn", drawn), unittest.mock.patch("gfb.report.main.say", said.append):
+            self.assertEqual(len(report.read_run(result.stem, None, seconds=1)["pictures"]), 2)
+        self.assertTrue(0.0 < given[1] < 0.5 < given[0] <= 1.0, given)
+        self.assertIn("its pictures have taken their 1 s; 1 of 3 are left out", said[-1])
+
     def test_time_of_a_tilt(self):
         point = {"factorizations": 30.0, "wall_time": 18.0}
         self.assertEqual(tilt_words(gfb.Case(SMALL), point), "", "a rigid bearing takes no time")
@@ -215,6 +239,9 @@ class PythonTest(unittest.TestCase):
         progress.end(first)
         progress.begin(second)
         progress.begin(search)
+        with progress.watching():
+            time.sleep(0.1)
+        self.assertRegex(said[-1], "^at work: twelve for .* s of about 3[678] s, search for [^ ]* s$")
         lines = [line for line in said if not line.startswith("at work")]
         self.assertEqual(lines[0], "1 of 4 begins: one: work; how long is not known yet; its limit is 90 s")
         self.assertRegex(lines[1], "^one: done after 3.* s$")

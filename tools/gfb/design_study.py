@@ -38,6 +38,7 @@ from gfb.tool import RunError, draw_into_files, parser_of, say
 
 SMALLEST_GAP = 4.0e-6                # m: the film at which load and tilt have reached their limit, where the case has none
 GRADE = 2.5                          # mm/s, ISO 21940-11: of turbines
+KEPT = ("highest_temperature", "largest_stress")  # limits of &capacity beside the film, of the bearing where it runs
 IDLE = re.compile(r"&sensitivity: parameters(?:\(\d+\))? = '([\w%]+)'")  # a key whose tolerance is none of this case
 # What a drawing leaves open, as a standard deviation: a length [m], or a part of the value.
 TOLERANCES = {"bearing%clearance": (2.0e-6, 0.0), "bump_foil%height": (1.0e-5, 0.0), "ramp%height": (2.0e-6, 0.0),
@@ -57,6 +58,7 @@ class Design:
     margins: list[Margin] = dataclasses.field(default_factory=list)
     verdict: str = ""         # what limits the bearing, in a sentence
     grade: float = GRADE      # of the balance [mm/s]
+    seconds: int = 0          # for the pictures of a part; 0: as long as they take
     runs: dict[str, dict[str, Any]] = dataclasses.field(default_factory=dict, repr=False)  # what a part has found, by its name, read once
     shown: dict[pathlib.Path, Any] = dataclasses.field(default_factory=dict, repr=False)   # what the page has of a part, drawn once
 
@@ -83,10 +85,11 @@ class Design:
         return "\n".join(lines) + "\n"
 
     def page(self, gfb: str | os.PathLike[str] | None = None) -> pathlib.Path:
-        """Writes the page of the study."""
+        """Writes the page of the study. Tolerances are of the film that the operating point shows."""
         for part in self.parts:
             if part.stem and part.stem not in self.shown:
-                self.shown[part.stem] = read_run(part.stem, gfb, title=part.question, curve=part.name != "point")
+                self.shown[part.stem] = read_run(part.stem, gfb, title=part.question, pictures=part.name != "tolerances", curve=part.name != "point",
+                                                 seconds=self.seconds)
         runs = [self.shown[part.stem] for part in self.parts if part.stem]
         return write_page(runs, self.folder/f"{self.name}.html", self.rows, self.name, self.margins, self.verdict)
 
@@ -95,7 +98,7 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
            processes: int = 1, gfb: str | os.PathLike[str] | None = None, tell: Callable[[str], None] = say, seconds: int = 0,
            filled: Callable[[Design], object] | None = None) -> Design:
     """Runs all parts of the study that apply to a case with a load; grade: of the rotor's balance [mm/s]; seconds: after which the program
-    stops a part, 0: none is; filled: called with what there is after each part. Raises CaseError where the case itself is wrong."""
+    stops a part, and no other picture of it is begun, 0: none is; filled: called with what there is after each part. Raises CaseError where the case itself is wrong."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     parts = parts_of_machine(case, smallest_gap, gap_of(case, smallest_gap), grade, gfb) if is_machine(case) else parts_of(case, smallest_gap, grade)
@@ -103,7 +106,7 @@ def design(case: Case, folder: str | os.PathLike[str] = "design", name: str = "d
         parts[0].case.check(gfb=gfb)
     for part in parts:
         check_part(part, gfb)
-    found, gap = Design(parts, [], folder, name, grade=grade), gap_of(case, smallest_gap)
+    found, gap = Design(parts, [], folder, name, grade=grade, seconds=seconds), gap_of(case, smallest_gap)
     progress, lock = Progress(sum(part.case is not None for part in parts), tell, seconds), threading.Lock()
 
     def after(part: Part, result: Result | None, new: bool) -> None:
@@ -139,7 +142,10 @@ def parts_of(case: Case, smallest_gap: float | None, grade: float) -> list[Part]
     speed = float(case["operation%speed_rpm"])
     gap = gap_of(case, smallest_gap)
     whirl = "whirl over the speed" if "rotor%mass" in case else "critical mass over the speed"
-    given: dict[str, Any] = {"capacity": {"smallest_gap": gap}} if smallest_gap or "capacity%smallest_gap" in case else {}  # else none is the case's own
+    limits = {key: case[f"capacity%{key}"] for key in KEPT if f"capacity%{key}" in case}
+    if smallest_gap or "capacity%smallest_gap" in case:  # else none is the case's own
+        limits["smallest_gap"] = gap
+    given: dict[str, Any] = {"capacity": limits} if limits else {}
     parts = [with_analysis(case, "point", "at the operating point", "linear_dynamics", ("dynamics", "rotor", "foil_damping"), **given)]
     if thrust:
         parts.append(Part("directions", "load from every direction", left_out="a runner is pressed along its axis"))
@@ -172,7 +178,7 @@ def gap_of(case: Case, smallest_gap: float | None) -> float:
 
 
 def orbit_of(case: Case, grade: float, speed: float, thrust: bool, given: dict[str, Any]) -> Part:
-    """The steady orbit under the unbalance that a grade allows: mass times grade over the angular speed; given: the film wanted."""
+    """The steady orbit under the unbalance that a grade allows: mass times grade over the angular speed; given: limits of the case."""
     question = f"orbit under balance grade G {grade:g}"
     if thrust or "rotor%mass" not in case:
         return Part("orbit", question, left_out="a runner is not followed over time" if thrust else "the case has no &rotor with a mass")
@@ -248,6 +254,8 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
             found += run["margins"]
         else:
             own = margins_of(Results(run["summary"], run["used"], run["place"]), gap)
+            if part.name in ("misalignment", "lift_off"):  # where nobody runs it
+                own = [one for one in own if one.subject not in ("temperature", "stress")]
             found += own if part.name == "point" else [dataclasses.replace(one, where=part.question) for one in own]
     return found
 
@@ -357,7 +365,7 @@ def main() -> int:
     parser.add_argument("--smallest-gap", type=float, metavar="M", help=f"film at which a limit is reached [m]; default: the case's, or {SMALLEST_GAP:g}")
     parser.add_argument("--grade", type=float, default=GRADE, metavar="G", help=f"balance grade of the rotor, ISO 21940 [mm/s]; default: {GRADE:g}")
     parser.add_argument("--seconds", type=seconds_of, default=0, metavar="S",
-                        help="stop a part after so many seconds, and keep what it has; its pictures are drawn behind them; default: none is")
+                        help="stop a part after so many seconds, and keep what it has, and its pictures after as many; default: none is")
     parser.add_argument("--processes", type=int, default=max(1, (os.cpu_count() or 2)//2), metavar="N", help="parts at a time")
     parser.add_argument("--gfb", help="the program; default: as gfb from Python finds it")
     options = parser.parse_args()
@@ -368,7 +376,7 @@ def main() -> int:
         nonlocal page
         began, first = time.monotonic(), page is None
         page = found.page(options.gfb)
-        drawn = f"drawn in {duration(time.monotonic() - began)}" + ", which --seconds does not count"*bool(options.seconds)
+        drawn = f"drawn in {duration(time.monotonic() - began)}"
         if first or options.seconds:
             say(f"{page} is there and fills: {drawn}" if first else f"the page is {drawn}")
 

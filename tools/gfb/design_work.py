@@ -46,6 +46,7 @@ class Progress:
     def __init__(self, number: int, tell: Callable[[str], None], seconds: int = 0, pause: float = PAUSE) -> None:
         self.number, self.tell, self.seconds, self.pause = number, tell, seconds, pause
         self.begun, self.at_work = 0, dict[str, float]()  # question: when it began
+        self.takes: dict[str, str] = {}                    # question: about how long, where that is known
         self.states, self.spent = 0, 0.0                   # of parts of this call that have ended, and whose number of states is known
         self.hints: dict[str, str] = {}                    # of a part's time, by its name
         self.lock = threading.Lock()
@@ -55,6 +56,8 @@ class Progress:
         with self.lock:
             self.begun += 1
             self.at_work[part.question] = time.monotonic()
+            if part.states and self.states and not part.goes_on:
+                self.takes[part.question] = f" of about {duration(part.states*self.spent/self.states)}"
             limit = f"; its limit is {duration(self.seconds)}" if self.seconds else ""
             self.tell(f"{self.begun} of {self.number} begins: {part.question}: {part.work}; {self.expected(part)}{limit}")
 
@@ -68,7 +71,7 @@ class Progress:
             return "how long is not known yet"
         each = self.spent/self.states
         if part.states == 0:
-            return f"how long is not known, the number of states shows on the way; one took {duration(each)} so far"
+            return f"how long is not known, for how many states it takes is found on the way; one took {duration(each)} so far"
         return f"about {duration(part.states*each)}, as one state took {duration(each)} so far"
 
     def end(self, part: Part, words: str = "") -> None:
@@ -89,7 +92,7 @@ class Progress:
                 with self.lock:
                     now = time.monotonic()
                     if self.at_work:
-                        self.tell("at work: " + ", ".join(f"{question} for {duration(now - began)}" for question, began in self.at_work.items()))
+                        self.tell("at work: " + ", ".join(f"{question} for {duration(now - began)}{self.takes.get(question, '')}" for question, began in self.at_work.items()))
 
         watcher = threading.Thread(target=watch, daemon=True)
         watcher.start()

@@ -13,6 +13,7 @@ import pathlib
 import re
 import subprocess
 import tempfile
+import time
 
 import jinja2
 import numpy
@@ -105,8 +106,8 @@ def stem_of(name):
     return pathlib.Path(name)
 
 
-def read_run(stem, gfb, title="", pictures=True, curve=False):
-    """All that the page has of a result; curve: of several points no other picture."""
+def read_run(stem, gfb, title="", pictures=True, curve=False, seconds=0):
+    """All that the page has of a result; curve: of several points no other picture; seconds: for all pictures, 0: as long as they take."""
     path = pathlib.Path(f"{stem}.h5")
     with reading(path), open_results(path) as file:
         summary = {name: of_dataset(file["summary"][name]) for name in in_order(stem, file["summary"])}
@@ -135,7 +136,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False):
         about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency, machine), "sketch": drawn_case, "place": place, "heat": heat_rows(summary),
                  "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
         pad = place.pad if place else 0 if machine else thinnest_pad(summary)
-    drawings = pictures_of(stem, points, shows, curve, pad, len(machine.bearings) if machine else 0) if pictures else []
+    drawings = pictures_of(stem, points, shows, curve, pad, len(machine.bearings) if machine else 0, seconds) if pictures else []
     why = "" if converged else ended(summary)
     return about | {
         "verdict": sentence(margins, why, about["open_questions"]), "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
@@ -199,8 +200,9 @@ def thinnest_pad(summary):
     return min(gaps, key=lambda pad: gaps[pad]) if gaps else 0
 
 
-def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0):
-    """Title and picture of everything that tools/plot draws of a result, or of its points or time alone; what it cannot draw is left out."""
+def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0, seconds=0):
+    """Title and picture of everything that tools/plot draws of a result, or of its points or time alone; what it cannot draw, or not in time,
+    is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
     which = f"pad {pad}, where the film is thinnest" if pad else "pad 1"
     wanted += [(f"{SURFACES[part]} of {which}", [f"{stem}.{part}_{max(pad, 1)}.vtkhdf"]) for part in ("top_foil", "bump_foil")]
@@ -230,19 +232,23 @@ def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0):
         for path in sorted({arguments[0] for _, arguments in there}):
             with reading(path):
                 open_results(path).close()  # what is damaged, or no file of gfb, is no picture that could be left out
-        found = []
+        found, end = [], time.monotonic() + (seconds or len(there)*SECONDS)
         for number, (words, arguments) in enumerate(there, 1):
+            left = end - time.monotonic()
+            if left <= 0.0:
+                say(f"{stem.name}: its pictures have taken their {seconds} s; {len(there) - number + 1} of {len(there)} are left out")
+                break
             say(f"{stem.name}: picture {number} of {len(there)}: {words}")
-            found.append((words, drawn(arguments, picture)))
+            found.append((words, drawn(arguments, picture, min(SECONDS, left))))
     return [(words, data) for words, data in found if data]
 
 
-def drawn(arguments, picture):
-    """A picture of tools/plot as text; empty where there is none."""
+def drawn(arguments, picture, seconds):
+    """A picture of tools/plot as text; empty where there is none in so many seconds."""
     picture.unlink(missing_ok=True)
     try:
         subprocess.run(command_beside("plot", *arguments, "-o", str(picture)), stdin=subprocess.DEVNULL, capture_output=True, check=True,
-                       timeout=SECONDS)
+                       timeout=seconds)
     except (subprocess.CalledProcessError, subprocess.TimeoutExpired):
         return ""
     return base64.b64encode(picture.read_bytes()).decode()
