@@ -567,7 +567,8 @@ contains
                      ' m: a bump is at most half a circle')
       call keys%rule(group, 'pitch', foil%pitch%value > 0.0_wp .and. bumps_overlap(foil), &
                      'must be at least 2 half_length = '//text(2.0_wp*foil%half_length%value)// &
-                     ' m, and is '//text(foil%pitch%value)//' m')
+                     ' m, and is '//text(foil%pitch%value)// &
+                     ' m; where bumps fill the pad, take fewer')
     end if
     if (bearing%radius > 0.0_wp .and. &
         foil%bumps*foil%pitch%value > pad_length(bearing)*(1.0_wp + rounding)) then
