@@ -18,7 +18,7 @@ ANSWERS = ("contacts that slide to and fro, at", "amplitude [m]   Kxx", "heat: t
            "more die out in less than a turn", "frequencies put between the", "unstable, its", "least damped mode (", "the first point,", ", frequency ratio",
            ", largest multiplier", "periods marched, each in", "onset of whirl at", "restart: resumed from",
            "of them taken again shorter", "film and foils are stored at", "the orbit is steady", ", rotor and foil: the rotor has",
-           "the number of steps")
+           "the number of steps", "of the shaft's axis at")
 LITERAL = re.compile(r"'((?:[^']|'')*)'")
 
 
