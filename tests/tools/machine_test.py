@@ -102,7 +102,8 @@ class MachineTest(unittest.TestCase):
         with h5py.File(f"{moved.stem}.h5", "r") as file:
             orbits = plot_time.draw(pathlib.Path("moved.h5"), file, None).axes
             self.assertEqual([chart.get_title().split(":")[0] for chart in orbits], ["bearing 1", "bearing 2", "disc 1", "station 1"])
-            self.assertAlmostEqual(orbits[0].patches[0].radius, 31.8, places=6)
+            (reach,) = [line.get_xydata() for line in orbits[0].lines if line.get_label() == "clearance at rest"]
+            numpy.testing.assert_allclose(numpy.hypot(*reach.T), 31.8)
             way = orbits[2].lines[0].get_data()
             numpy.testing.assert_allclose(way[0], 1.0e6*file["transient/x_disc_1"][...])
             thinnest = plot_time.draw(pathlib.Path("moved.h5"), file, "thinnest").axes[0]
@@ -217,6 +218,7 @@ class BlowerTest(unittest.TestCase):
             self.assertNotIn("warning", answer.log)  # of samples beside springs that relax some are no modes
             self.assertRegex(answer.log, r"(?m)^ +1 +7\d\.\d+ .* to and fro$")
             self.assertRegex(answer.log, r"(?m)^ +2 +1[23]\d\.\d+ .* forward$")
+            self.assertEqual([plot_motions.way_of(sense) for sense in (0.04, 0.06, -0.06)], ["to and fro", "forward", "backward"])
             self.assertAlmostEqual(answer["mass"], 2.2, delta=0.05)
             self.assertLess(answer["growth_rate"], -20.0)
             self.assertAlmostEqual(abs(answer["force_z_3"]), 120.0, delta=1.0e-6)
@@ -226,6 +228,8 @@ class BlowerTest(unittest.TestCase):
                 hertz = numpy.sort(file["dynamics/mode_frequency"][...].ravel()/(2.0*math.pi))
                 bends = hertz[hertz > 800.0]
                 self.assertTrue(((bends > 1000.0) & (bends < 1300.0)).all() and len(bends) == 2, hertz)
+                reach = plot_machine.read(path, file).reach(1)
+                self.assertAlmostEqual(numpy.nanmin(numpy.hypot(*reach.T)), 0.15*110.0e-6, delta=1.0e-9)  # its pads have a preload of 0.85
                 above = plot_machine.draw(path, file).axes[0]
                 mass, stiffness = (file[f"shaft/{name}"][...] for name in ("mass", "stiffness"))
             free = numpy.sort(numpy.sqrt(numpy.abs(numpy.linalg.eigvals(numpy.linalg.solve(mass, stiffness)))))[2]/(2.0*math.pi)

@@ -214,10 +214,14 @@ class PythonTest(unittest.TestCase):
             time.sleep(0.6)
             return "picture"
 
-        with unittest.mock.patch("gfb.report.main.drawn", drawn), unittest.mock.patch("gfb.report.main.say", said.append):
+        with unittest.mock.patch.multiple("gfb.report.main", drawn=drawn, say=said.append, AT_ONCE=1):
             self.assertEqual(len(report.read_run(result.stem, None, seconds=1)["pictures"]), 2)
         self.assertTrue(0.0 < given[1] < 0.5 < given[0] <= 1.0, given)
-        self.assertIn("its pictures have taken their 1 s; 1 of 3 are left out", said[-1])
+        self.assertIn("1 of 3 pictures are left out", said[-1])
+        self.assertIsNone(report.drawn([f"{result.stem}.film.vtkhdf"], self.folder/"late.png", 0.01))
+        with unittest.mock.patch.multiple("gfb.report.main", drawn=lambda _, picture, __: picture.name, say=said.append, AT_ONCE=3):
+            pictures = report.read_run(result.stem, None, seconds=60)["pictures"]
+        self.assertEqual([name for _, name in pictures], ["1.png", "2.png", "3.png"], "in their order, each in a file of its own")
 
     def test_time_of_a_tilt(self):
         point = {"factorizations": 30.0, "wall_time": 18.0}
@@ -241,13 +245,15 @@ class PythonTest(unittest.TestCase):
         progress.begin(search)
         with progress.watching():
             time.sleep(0.1)
-        self.assertRegex(said[-1], "^at work: twelve for .* s of about 3[678] s, search for [^ ]* s$")
+        at_work = said[-1]
         lines = [line for line in said if not line.startswith("at work")]
         self.assertEqual(lines[0], "1 of 4 begins: one: work; how long is not known yet; its limit is 90 s")
         self.assertRegex(lines[1], "^one: done after 3.* s$")
         minutes = re.search(r"about (\d+) s, as one state took 3\.(\d) s so far", lines[2])
         self.assertAlmostEqual(float(minutes[1]), 12.0*(3.0 + 0.1*float(minutes[2])), delta=0.7)
+        self.assertRegex(at_work, f"^at work: twelve for .* s of about {minutes[1]} s, search for [^ ]* s$")
         self.assertIn("how long is not known", lines[3])
+        self.assertEqual(progress.expected(Part("whirl_1", "alone", states=7)), "how long is not known yet", "a bearing alone is no machine")
 
     def test_study_that_is_stopped(self):
         """A part that its limit stops has its last state, and goes on from there."""

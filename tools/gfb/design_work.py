@@ -47,7 +47,8 @@ class Progress:
         self.number, self.tell, self.seconds, self.pause = number, tell, seconds, pause
         self.begun, self.at_work = 0, dict[str, float]()  # question: when it began
         self.takes: dict[str, str] = {}                    # question: about how long, where that is known
-        self.states, self.spent = 0, 0.0                   # of parts of this call that have ended, and whose number of states is known
+        # Of parts of this call that have ended, and whose number of states is known: [states, seconds], of the whole and of a bearing of it alone.
+        self.taken = {False: [0, 0.0], True: [0, 0.0]}
         self.hints: dict[str, str] = {}                    # of a part's time, by its name
         self.lock = threading.Lock()
 
@@ -56,10 +57,15 @@ class Progress:
         with self.lock:
             self.begun += 1
             self.at_work[part.question] = time.monotonic()
-            if part.states and self.states and not part.goes_on:
-                self.takes[part.question] = f" of about {duration(part.states*self.spent/self.states)}"
+            if part.states and self.each(part) and not part.goes_on:
+                self.takes[part.question] = f" of about {duration(part.states*self.each(part))}"
             limit = f"; its limit is {duration(self.seconds)}" if self.seconds else ""
             self.tell(f"{self.begun} of {self.number} begins: {part.question}: {part.work}; {self.expected(part)}{limit}")
+
+    def each(self, part: Part) -> float:
+        """What a state of such a part took so far [s]; 0 where that is not known."""
+        states, spent = self.taken[is_alone(part.name)]
+        return spent/max(1, states)
 
     def expected(self, part: Part) -> str:
         """The time of a part, from what states took in this call; nothing is made up where that says nothing."""
@@ -67,9 +73,9 @@ class Progress:
             return "it goes on where it was stopped, how long is not known"
         if part.name in self.hints:
             return self.hints[part.name]
-        if self.states == 0:
+        each = self.each(part)
+        if not each:
             return "how long is not known yet"
-        each = self.spent/self.states
         if part.states == 0:
             return f"how long is not known, for how many states it takes is found on the way; one took {duration(each)} so far"
         return f"about {duration(part.states*each)}, as one state took {duration(each)} so far"
@@ -79,7 +85,8 @@ class Progress:
         with self.lock:
             took = time.monotonic() - self.at_work.pop(part.question)
             if part.states and not (words or part.goes_on):
-                self.states, self.spent = self.states + part.states, self.spent + took
+                taken = self.taken[is_alone(part.name)]
+                taken[0], taken[1] = taken[0] + part.states, taken[1] + took
             self.tell(f"{part.question}: {words or 'done'} after {duration(took)}")
 
     @contextlib.contextmanager
@@ -101,6 +108,11 @@ class Progress:
         finally:
             over.set()
             watcher.join()
+
+
+def is_alone(name: str) -> bool:
+    """Whether a part is of one bearing of a machine."""
+    return re.search(r"_\d+$", name) is not None
 
 
 def place_of(name: str) -> int:

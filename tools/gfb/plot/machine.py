@@ -7,6 +7,7 @@ import numpy
 from matplotlib import patches, pyplot
 
 from gfb.case import Case
+from gfb.plot.clearance import DIRECTIONS, OPEN, bearing_of
 from gfb.plot.scene import case_name
 from gfb.results import text_of
 from gfb.tool import stop
@@ -46,6 +47,7 @@ class Machine:
     thrust: list             # of each bearing: to which side a thrust bearing's pads face, 0 of a journal's
     places: list             # (words, z) of bearings, discs and stations, in the order of the results
     speed: float             # [rpm]
+    pads: list               # Bearing of each whose pads have a preload, else None
 
     @property
     def length(self):
@@ -61,6 +63,17 @@ class Machine:
     def offset(self, axis):
         """How far each sleeve stands off the line [m]."""
         return values_of(self.case, f"bearings%offset_{axis}", len(self.bearings))
+
+
+    def reach(self, number):
+        """How far the axis may go in the n-th sleeve before the journal touches its pads at rest, all around it [m]: (direction, x y)."""
+        angle = numpy.linspace(0.0, 2.0*math.pi, DIRECTIONS)
+        clearance, pads = self.bearings[number - 1, 3], self.pads[number - 1]
+        far = numpy.full(DIRECTIONS, clearance)
+        if pads is not None:
+            far = pads.limit(angle)
+            far[far > OPEN*clearance] = numpy.nan
+        return numpy.column_stack((far*numpy.cos(angle), far*numpy.sin(angle)))
 
 
 def is_machine(file):
@@ -81,7 +94,25 @@ def read(path, file):
     speed = float(file["history/speed_rpm"][-1]) if "history/speed_rpm" in file else float(case["machine%speed_rpm"])
     facing = values_of(case, "bearings%facing", len(bearings), 1.0)
     thrust = [float(facing[number - 1])*(f"force_z_{number}" in file["summary"]) for number in range(1, len(bearings) + 1)]
-    return Machine(case, line[:, 0], line[:, 1:], file["shaft/sections"][...], bearings, discs, thrust, places, speed)
+    return Machine(case, line[:, 0], line[:, 1:], file["shaft/sections"][...], bearings, discs, thrust, places, speed,
+                   [pads_of(file, number) for number in range(1, len(bearings) + 1)])
+
+
+def pads_of(file, number):
+    """The pads of the n-th bearing's own file where they have a preload, so that its clearance is not how far the shaft may go; else None."""
+    if f"scene/bearing_{number}" not in file:
+        return None
+    groups = Case.parse(text_of(file[f"scene/bearing_{number}"][()])).groups
+    keys = {(group, key): (str(value), False) for group, values in groups.items() for key, value in values.items()}
+    found = bearing_of(keys)
+    return found if found is not None and 0.0 < found.shift < found.clearance else None
+
+
+def draw_reach(chart, machine, number, middle):
+    """How far the axis may go in a sleeve, about the sleeve's middle; the largest distance [um]."""
+    line = MICRO*machine.reach(number)
+    chart.plot(middle[0] + line[:, 0], middle[1] + line[:, 1], color="0.4", linewidth=1.2, label="clearance at rest")
+    return float(numpy.nanmax(numpy.hypot(*line.T)))
 
 
 def listed(case, name):

@@ -18,6 +18,7 @@ ROUND = 73         # points of an orbit
 ORBITS = 25        # of a shape, about
 RPM = 30.0/math.pi
 SPEEDS = 4         # critical speeds that a map has
+CIRCULAR = 0.05    # a smaller sense goes to and fro
 PLACE = 5          # numbers of a place's response: z, amplitude and phase of x, of y
 PEAKED = 0.4*math.pi  # decrement of an amplification by 2.5, below which API 617 counts no critical speed
 DECREMENT = 1.0    # at the ends of the colours
@@ -59,9 +60,14 @@ def draw_shapes(path, file):
         draw_shape(chart, machine, motions/numpy.abs(motions[:, :2]).max())
         frequency, sense = modes["frequency"][-1, number], modes["sense"][-1, number]
         chart.set_title(f"mode {number + 1}: {frequency/(2.0*math.pi):.4g} Hz, {frequency*RPM/machine.speed:.3g} of the speed,\n"
-                        f"{'forward' if sense > 0.0 else 'backward'}, log decrement {modes['decrement'][-1, number]:.3g}", fontsize=9)
+                        f"{way_of(sense)}, log decrement {modes['decrement'][-1, number]:.3g}", fontsize=9)
     figure.suptitle(drawing.title(path, machine), fontsize=11)
     return figure
+
+
+def way_of(sense):
+    """Which way a mode goes round, as the log says it."""
+    return "to and fro" if abs(sense) <= CIRCULAR else "forward" if sense > 0.0 else "backward"
 
 
 def draw_shape(chart, machine, motions):

@@ -1,7 +1,7 @@
 """Pictures of a machine's orbits that close: the branch over its parameter, and the orbits at bearings, discs and stations."""
 
 import numpy
-from matplotlib import patches, pyplot
+from matplotlib import pyplot
 
 from gfb.plot import machine as drawing
 from gfb.plot.colours import round_numbers
@@ -23,7 +23,7 @@ def draw(path, file):
         number = int(place.rpartition("_")[2]) if place.startswith("bearing_") else 0
         if number and not machine.thrust[number - 1]:
             middle = [MICRO*machine.offset(axis)[number - 1] for axis in "xy"]
-            draw_clearance(chart, MICRO*machine.bearings[number - 1, 3], middle)
+            make_room(chart, drawing.draw_reach(chart, machine, number, middle), middle)
     figure.suptitle(f"{case_name(path)}: orbits that close", fontsize=11)
     return figure
 
@@ -58,9 +58,8 @@ def draw_orbits(chart, rows, place):
     chart.grid(alpha=0.3)
 
 
-def draw_clearance(chart, clearance, middle):
-    """The clearance at rest, where it fits into the picture."""
-    chart.add_patch(patches.Circle(middle, clearance, fill=False, color="0.4", linewidth=1.2))
+def make_room(chart, clearance, middle):
+    """Room for the clearance at rest, beside the orbits."""
     limits = [*chart.get_xlim(), *chart.get_ylim()]
     low, high = min(limits[0] - middle[0], limits[2] - middle[1], -1.12*clearance), max(limits[1] - middle[0], limits[3] - middle[1], 1.12*clearance)
     chart.set(xlim=(middle[0] + low, middle[0] + high), ylim=(middle[1] + low, middle[1] + high))

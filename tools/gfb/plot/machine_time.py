@@ -4,7 +4,7 @@ speed, points once a turn."""
 import math
 
 import numpy
-from matplotlib import patches, pyplot
+from matplotlib import pyplot
 
 from gfb.plot import machine as drawing
 from gfb.plot import transient
@@ -63,9 +63,9 @@ def draw_orbits(machine, history, places):
         chart.set_title(f"{words_of(place)}: {numpy.ptp(x):.3g} x {numpy.ptp(y):.3g} um", fontsize=9)
         chart.set(aspect="equal", xlabel="x [um]", ylabel="y [um]")
         number = int(place.rpartition("_")[2]) if place.startswith("bearing_") else 0
-        clearance = MICRO*machine.bearings[number - 1, 3] if number and not machine.thrust[number - 1] else 0.0
-        if clearance > 0.0:
-            draw_clearance(chart, history, x, y, clearance, [MICRO*machine.offset(axis)[number - 1] for axis in "xy"])
+        if number and not machine.thrust[number - 1] and machine.bearings[number - 1, 3] > 0.0:
+            middle = [MICRO*machine.offset(axis)[number - 1] for axis in "xy"]
+            draw_clearance(chart, history, x, y, drawing.draw_reach(chart, machine, number, middle), middle)
         else:
             look_at(chart, x, y)
         chart.grid(alpha=0.3)
@@ -88,8 +88,7 @@ def look_at(chart, x, y):
 
 
 def draw_clearance(chart, history, x, y, clearance, middle):
-    """The circle of the clearance at rest about the sleeve's middle; a small orbit once more, larger."""
-    chart.add_patch(patches.Circle(middle, clearance, fill=False, color="0.4", linewidth=1.2))
+    """Room for the clearance at rest about the sleeve's middle; a small orbit once more, larger."""
     far = max(clearance, float(numpy.hypot(x - middle[0], y - middle[1]).max()))
     chart.set(xlim=(middle[0] - 1.12*far, middle[0] + 1.12*far), ylim=(middle[1] - 1.12*far, middle[1] + 1.12*far))
     if max(numpy.ptp(x), numpy.ptp(y)) < SMALL*clearance:

@@ -8,7 +8,9 @@ from. Exit status: 0 written, 1 a result cannot be read, 3 the page cannot be wr
 """
 
 import base64
+import concurrent.futures
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -45,6 +47,7 @@ OF_MACHINES = {"machine": "the machine to scale, its static line, moments along 
 SHOWN = {"contact": "contacts", "dynamics": "stiffness and damping over the frequency", "campbell": "the rotor's modes over the speed"}
 OVER_POINTS = ("campbell", "response")  # pictures of a machine's sweep
 SECONDS = 300     # no picture takes that long
+AT_ONCE = max(1, (os.cpu_count() or 2)//2)  # pictures
 MOST_ROWS = 400   # of a table of points
 SAME = 1.0e-9     # of the largest result of a unit: numbers that differ less are one
 
@@ -227,29 +230,38 @@ def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0, seconds=0):
     if curve and (points > 1 or "transient" in shows):
         wanted = [one for one in wanted if one[1] == [f"{stem}.h5"] or bearings and one[1][-1] in OVER_POINTS]
     with tempfile.TemporaryDirectory() as folder:
-        picture = pathlib.Path(folder)/"picture.png"
         there = [(words, arguments) for words, arguments in wanted if pathlib.Path(arguments[0]).exists()]
         for path in sorted({arguments[0] for _, arguments in there}):
             with reading(path):
                 open_results(path).close()  # what is damaged, or no file of gfb, is no picture that could be left out
-        found, end = [], time.monotonic() + (seconds or len(there)*SECONDS)
-        for number, (words, arguments) in enumerate(there, 1):
+        end = time.monotonic() + (seconds or len(there)*SECONDS)
+
+        def draw_one(number, words, arguments):
             left = end - time.monotonic()
             if left <= 0.0:
-                say(f"{stem.name}: its pictures have taken their {seconds} s; {len(there) - number + 1} of {len(there)} are left out")
-                break
+                return None
             say(f"{stem.name}: picture {number} of {len(there)}: {words}")
-            found.append((words, drawn(arguments, picture, min(SECONDS, left))))
-    return [(words, data) for words, data in found if data]
+            data = drawn(arguments, pathlib.Path(folder)/f"{number}.png", min(SECONDS, left))
+            return None if data is None else (words, data)
+
+        pool = concurrent.futures.ThreadPoolExecutor(AT_ONCE)
+        try:
+            found = list(pool.map(draw_one, range(1, len(there) + 1), *zip(*there))) if there else []
+        finally:
+            pool.shutdown(cancel_futures=True)
+    if None in found:
+        say(f"{stem.name}: {found.count(None)} of {len(there)} pictures are left out: their time was over")
+    return [one for one in found if one and one[1]]
 
 
-def drawn(arguments, picture, seconds):
-    """A picture of tools/plot as text; empty where there is none in so many seconds."""
-    picture.unlink(missing_ok=True)
+def drawn(arguments, picture, seconds=SECONDS):
+    """A picture of tools/plot as text; empty where there is none, None where there is none in so many seconds."""
     try:
         subprocess.run(command_beside("plot", *arguments, "-o", str(picture)), stdin=subprocess.DEVNULL, capture_output=True, check=True,
                        timeout=seconds)
-    except (subprocess.CalledProcessError, subprocess.TimeoutExpired):
+    except subprocess.TimeoutExpired:
+        return None
+    except subprocess.CalledProcessError:
         return ""
     return base64.b64encode(picture.read_bytes()).decode()
 
