@@ -17,10 +17,10 @@ from gfb.report.answer import Results  # noqa: E402
 from gfb.report.glance import glance  # noqa: E402
 from gfb.report.main import read_run, thinnest_pad, write_page  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
-from gfb.report.margin import Margin  # noqa: E402
+from gfb.report.margin import STOPPED, Margin  # noqa: E402
 from gfb.report.sketch import case_sketch, sketch  # noqa: E402
 from gfb.report.thinnest import Place, place_of_thinnest  # noqa: E402
-from gfb.report.verdict import margins_of, not_computed, plain, sentence  # noqa: E402
+from gfb.report.verdict import colour_of, margins_of, not_computed, plain, sentence  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
 from slow import slow  # noqa: E402
 
@@ -277,6 +277,8 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(sentence([Margin("film", "4 um")], "No answer was found."), "No answer was found.")
         parts = [Margin("film", "4 um", "2 um are wanted", 2.0), Margin("orbit", "orbit under G 2.5", "no answer")]
         self.assertEqual((sentence(parts), parts[1].sign), ("The one known limit is kept, that of film: 4 um, 2 um are wanted: 2 times what is needed. No answer: orbit.", "✗ no answer"))
+        parts[1].limit = STOPPED
+        self.assertEqual((sentence(parts).partition("needed. ")[2], parts[1].sign, colour_of(parts)), ("Stopped before the end: orbit.", "… stopped", ""))
 
     def test_page_and_terminal_begin_with_the_same_words(self):
         runs = [read_run(self.folder/name, None, pictures=False) for name in ("first", "second")]

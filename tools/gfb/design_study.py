@@ -30,7 +30,7 @@ from gfb.report.answer import LAST_STATE, Results, carried_by, film_words, why_n
 from gfb.report.machine import is_machine
 from gfb.report.main import read_run, write_page
 from gfb.report.thinnest import SAME
-from gfb.report.margin import NO_ANSWER, ONSET, Margin, compared
+from gfb.report.margin import NO_ANSWER, ONSET, STOPPED, Margin, compared
 from gfb.report.verdict import margins_of, not_computed, sentence
 from gfb.results import read_history
 from gfb.running import Result
@@ -240,7 +240,7 @@ def margins_of_parts(parts: Sequence[Part], runs: Mapping[str, dict[str, Any]], 
             continue
         of_machine: dict[str, Any] = {"where": bearing_of(part.name)} | ({} if is_of_one_bearing(parts) else {"body": "machine"})
         if not run["converged"]:
-            found.append(Margin(part.name.replace("_", "-"), part.question, NO_ANSWER))
+            found.append(Margin(part.name.replace("_", "-"), part.question, STOPPED if part.stopped else NO_ANSWER))
         elif part.name == "directions":
             angles, films = column(run, "load_angle"), column(run, "minimum_gap")
             worst = first_of(films, min(films))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 
-NO_ANSWER = "no answer"  # of a part of a study
+NO_ANSWER, STOPPED = "no answer", "stopped"  # of a part of a study: there is none; it was stopped before
 ONSET = "onset_speed_rpm"
-SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known", "missing": "✗ no answer"}
+SIGNS = {"kept": "✓ kept", "broken": "✗ broken", "unknown": "? no limit known", "missing": "✗ no answer",
+         "stopped": "… stopped"}
 
 
 @dataclasses.dataclass
@@ -25,7 +26,9 @@ class Margin:
     @property
     def state(self) -> str:
         """Which of SIGNS."""
-        return "missing" if self.limit == NO_ANSWER else "broken" if self.is_broken else "kept" if self.limit else "unknown"
+        if self.limit in (NO_ANSWER, STOPPED):
+            return "missing" if self.limit == NO_ANSWER else "stopped"
+        return "broken" if self.is_broken else "kept" if self.limit else "unknown"
 
     @property
     def sign(self) -> str:

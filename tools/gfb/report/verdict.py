@@ -171,7 +171,7 @@ def stress(results: Results) -> Iterator[Margin]:
 def colour_of(margins: Sequence[Margin]) -> str:
     """The worst state among margins, whose colour their sentence has; empty where none has a limit."""
     states = {one.state for one in margins}
-    return "broken" if states & {"broken", "missing"} else "kept" if "kept" in states else ""
+    return "broken" if states & {"broken", "missing"} else "kept" if "kept" in states and "stopped" not in states else ""
 
 
 def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequence[str] = ()) -> str:
@@ -182,8 +182,8 @@ def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequenc
     broken = [one for one in margins if one.state == "broken"]
     kept = [one for one in margins if one.state == "kept"]
     broken.sort(key=lambda one: one.factor if one.factor is not None else 1.0)  # what has a number says by how much
-    missing = list(dict.fromkeys(one.subject for one in margins if one.state == "missing"))
-    known = {one.subject for one in broken + kept} | set(missing)
+    missing, stopped = (list(dict.fromkeys(one.subject for one in margins if one.state == state)) for state in ("missing", "stopped"))
+    known = {one.subject for one in broken + kept} | {*missing, *stopped}
     without = list(dict.fromkeys(one.subject for one in margins if one.subject not in known))
     words = []
     if broken:
@@ -197,6 +197,8 @@ def sentence(margins: Sequence[Margin], ended: str = "", open_questions: Sequenc
         words.append(f"No limit is known for {', '.join(without)}" + ("." if known else f": {margins[0].value}."))
     if missing:
         words.append(f"No answer: {', '.join(missing)}.")
+    if stopped:
+        words.append(f"Stopped before the end: {', '.join(stopped)}.")
     if open_questions:
         words.append(f"Not computed: {', '.join(open_questions)}.")
     return " ".join(words)
