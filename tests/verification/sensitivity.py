@@ -150,7 +150,7 @@ def check_foils(checks, folder):
     """Shells and beams, with friction and without; pressures scale foils as well."""
     shells = foils("shell", 0.1)
     check_differences(checks, folder, "shells with friction", shells,
-                      {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "bump_foil%half_length": 2.0e-5,
+                      {"bump_foil%thickness": 1.0e-4, "bump_foil%height": 5.0e-5, "bump_foil%half_length": 8.0e-5,
                        "top_foil%thickness": 1.0e-4, "contact%friction_top": 2.0e-4, "bearing%clearance": 5.0e-5, "bump_foil%pitch": 1.6e-5},
                       NAMES + STRESSES)
     keys = {"gas%viscosity": 1, "gas%ambient_pressure": 1, "operation%load": 1, "top_foil%youngs_modulus": 1,
