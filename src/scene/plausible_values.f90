@@ -181,6 +181,7 @@ module gfb_plausible_values
     range_type(0.0_wp, 1.0e5_wp, '1', '', 'transient%turns transient%steps_per_turn'), &
     range_type(1.0e-8_wp, 1.0e3_wp, 's', 'ms,us', 'transient%duration transient%ramp_time'), &
     range_type(1.0e-10_wp, 0.1_wp, '1', '%', 'transient%time_tolerance'), &
+    range_type(0.0_wp, 0.1_wp, '1', '%', 'transient%unsolved_part'), &
     range_type(0.0_wp, 1.0e6_wp, 'N', 'mN', 'transient%start_load'), &
     range_type(1.0e-13_wp, 1.0e-2_wp, 'kg m', 'kg mm,g mm', 'unbalance%unbalance'), &
     range_type(1.0e-14_wp, 1.0e-2_wp, 'kg m^2', 'kg mm^2,g mm^2', 'unbalance%couple_unbalance'), &

@@ -17,7 +17,7 @@ import h5py
 import numpy
 
 from dynamics import FOIL_BEARING, RING, beams
-from gfb_run import case_groups, largest_difference, observed_order, run_checks, solve
+from gfb_run import case_groups, largest_difference, observed_order, run_checks, run_file, solve
 from rotor import modes_of, rotor_case, speed_of
 
 ORBITS = json.loads((pathlib.Path(__file__).parent/"reference/orbits.json").read_text(encoding="utf-8"))["orbits"]
@@ -240,6 +240,17 @@ def check_same(checks, folder):
     checks.below("without a drive nothing moves", numpy.ptp(rows["eccentricity_x"])/31.8e-6, 1.0e-9)
     content["transient"] |= {"unbalance": 1.0e-6}
     one, two = (history(solve(folder, "ranks", content, ranks)) for ranks in (1, 2))
+    content["transient"]["unsolved_part"] = 0.0
+    last = history(solve(folder, "last_digits", content))
+    part = abs(plane(one, "eccentricity") - plane(last, "eccentricity")).max()/numpy.ptp(last["eccentricity_x"])
+    spent = (one["newton_iterations"][-1] - one["newton_iterations"][0])/(last["newton_iterations"][-1] - last["newton_iterations"][0])
+    checks.that(f"steps solved to a part of their error: {spent:.2f} of the iterations, {part:.1e} of the orbit", spent < 0.8 and 0.0 < part < 1.0e-4)
+    content["solver"] = {"step_tolerance": 1.0e-9}
+    del content["transient"]["unsolved_part"]
+    given = history(solve(folder, "given", content))
+    checks.that("a tolerance that is given holds: the same digits", numpy.array_equal(plane(given, "eccentricity"), plane(last, "eccentricity")))
+    again = history(run_file(folder/"ranks.used.nml", folder))
+    checks.that("an echo is read as its case was", numpy.array_equal(plane(again, "eccentricity"), plane(one, "eccentricity")))
     checks.below("two ranks: positions", largest_difference(
         plane(one, "eccentricity"), plane(two, "eccentricity"), 31.8e-6), 1.0e-8)
     checks.below("two ranks: forces", largest_difference(plane(one, "force"), plane(two, "force"), 60.0), 1.0e-7)

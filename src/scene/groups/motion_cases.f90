@@ -112,6 +112,7 @@ module gfb_motion_cases
     real(wp) :: duration = 0.0_wp          !! the same [s]
     real(wp) :: steps_per_turn = 0.0_wp    !! 0: the error chooses them [1]
     real(wp) :: time_tolerance = 1.0e-5_wp !! error of a step over the clearance, then [1]
+    real(wp) :: unsolved_part = 0.01_wp    !! of a step's error, to which it is solved [1]
     real(wp) :: start_load(2) = 0.0_wp     !! whose equilibrium the shaft begins with [N]
     logical :: start_load_given = .false.  !! else that of `&operation`
     real(wp) :: final_speed_rpm = 0.0_wp   !! [rpm]
@@ -399,6 +400,14 @@ contains
                        'where it chooses the steps', positive)
     call read_drive(keys, transient, operation, analysis%is_machine)
     of_bearing = unless(.not. analysis%is_machine, no_use_of_machine)
+    ! Who asks for a tolerance gets it; an echo, which has both keys, is read as its case was.
+    if (analysis%is_machine .or. keys%holds('solver', 'step_tolerance')) then
+      transient%unsolved_part = 0.0_wp
+    end if
+    call keys%real_key('unsolved_part', transient%unsolved_part, '1', &
+                       'of the error that a step has by its length: so much its equations may '// &
+                       'leave unsolved; 0, and by default where step_tolerance is given: each '// &
+                       'is solved to that', from_to(0.0_wp, 1.0_wp), useless=of_bearing)
     call keys%real_key('orbit_radius', transient%orbit_radius, 'm', &
                        'radius of the circle on which a sleeve moves whose eccentricity is '// &
                        'given: it begins at +x from there', not_negative, useless=of_bearing)

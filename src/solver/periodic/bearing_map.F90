@@ -99,7 +99,6 @@ contains
     settings = map%settings
     settings%steps_per_turn = map%steps*2.0_wp*pi/(drive%speed*period_of(map, x))
     settings%end_time = huge(1.0_wp)
-    settings%unsolved = 0.0_wp ! what is left of steps does not close
     call begin_march(drive, settings, map%bearing, march)
   end subroutine begin_at
 

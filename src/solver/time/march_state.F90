@@ -26,7 +26,7 @@ module gfb_march_state
     real(wp) :: tolerance = 1.0e-5_wp   !! error of a step in the shaft's position, over the clearance, then [1]
     real(wp) :: damping = 0.0_wp        !! of an elastic foundation [N s/m^3]
     type(maxwell_arm_type) :: arm       !! beside its springs
-    real(wp) :: unsolved = 0.01_wp      !! of a step's own error, to which its equations are solved [1]
+    real(wp) :: unsolved = 0.0_wp       !! of a step's own error, to which its equations are solved; 0: to the last digits [1]
     real(wp) :: loss_time = 0.0_wp      !! viscous losses of meshed foils, over their stiffness [s]
     real(wp) :: end_time = 0.0_wp       !! [s]
   contains

@@ -63,6 +63,7 @@ contains
 
     settings%steps_per_turn = scene%transient%steps_per_turn
     settings%tolerance = scene%transient%time_tolerance
+    settings%unsolved = scene%transient%unsolved_part
     settings%damping = scene%foil_damping%foundation_damping
     settings%arm = scene%foil_damping%arm
     settings%loss_time = scene%foil_damping%loss_time()
