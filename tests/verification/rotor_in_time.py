@@ -181,7 +181,7 @@ def meshed_case(foil, friction, rotor, **keys):
     content = case_groups(FOIL_BEARING, one["mesh"], foil, load=(-60.0, 0.0), speed_rpm=one["speed_rpm"], groups=groups)
     content["scene"]["analysis"] = "transient"
     content["rotor"] = {"mass": 1.5} | rotor
-    content["transient"] = {"turns": 0.5, "steps_per_turn": 60, "unbalance": 3.0e-6} | keys
+    content["transient"] = {"turns": 0.5, "steps_per_turn": 60, "unbalance": 3.0e-6, "unsolved_part": 0.0} | keys
     return content
 
 
