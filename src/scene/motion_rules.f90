@@ -6,7 +6,7 @@ module gfb_motion_rules
   use gfb_contact_law, only: law_tanh_reset
   use gfb_motion_cases, only: tangent_stick, mass_auto, mass_on, mass_off, motion_free, &
                               follow_nothing, follow_speed, follow_unbalance, follow_mass, &
-                              duration_of, periodic_case_type
+                              duration_of
   use gfb_model_case, only: needs_meshes, coupling_partitioned, half_width_yes, reduction_none, &
                             springs_two_sided
   use gfb_operation_case, only: angular_speed
@@ -19,6 +19,7 @@ module gfb_motion_rules
   public :: check_dynamics, check_foil_mass, check_rotor, check_transient, check_periodic
 
   real(wp), parameter :: least_steps = 20.0_wp !! of a turn, or of a pulse [1]
+  character(len=*), parameter :: unused_where_free = "has no use with motion = 'free'"
 
 contains
 
@@ -390,7 +391,6 @@ contains
         call keys%rule('machine', 'speed_rpm', keys%meant('machine', 'speed_rpm') .and. &
                        .not. scene%machine%speed_rpm > 0.0_wp, &
                        "must be positive with analysis = 'periodic'")
-        call check_machine_branch(keys, scene)
       else
         call keys%rule('operation', 'speed_rpm', stands_still(keys, scene), &
                        "must be positive with analysis = 'periodic'")
@@ -398,8 +398,8 @@ contains
                        "'periodic' needs the mass of the shaft, in &rotor")
         call keys%refuse('rotor', 'bearing_distance', scene%rotor%present, 'has no use with '// &
                          "analysis = 'periodic': the shaft moves in x and y alone")
-        call check_branch(keys, scene)
       end if
+      call check_branch(keys, scene)
       call keys%rule('model', 'foil', scene%model%foil%has_bumps .and. &
                      scene%contact%may_rub .and. (periodic%motion == motion_free .or. &
                      periodic%parameter /= follow_nothing), 'needs friction_top and '// &
@@ -415,87 +415,79 @@ contains
   subroutine check_branch(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    character(len=*), parameter :: group = 'periodic'
-    character(len=*), parameter :: no_use = "has no use with motion = 'free'"
+    character(len=*), parameter :: group = 'periodic', end_key = 'final_value'
     real(wp) :: begin
     logical :: free
 
     associate (periodic => scene%periodic, parameter => scene%periodic%parameter)
       free = periodic%motion == motion_free
-      call keys%refuse('unbalance', 'unbalance, unbalance_angle', free, no_use)
-      call keys%refuse(group, 'period_turns, start_turns', free, no_use)
-      call keys%rule(group, 'parameter', free .and. all(parameter /= [0, follow_speed, &
-                     follow_mass]), "must be 'speed_rpm' or 'mass' with motion = 'free': the "// &
-                     'limit cycles are followed from the onset of whirl on')
+      call keys%refuse(group, 'period_turns, start_turns', free, unused_where_free)
       call keys%refuse(group, 'first_amplitude', .not. free, "needs motion = 'free'")
-      call keys%rule(group, 'unbalance', .not. (free .or. keys%meant(group, 'unbalance') .or. &
-                     parameter == follow_unbalance), &
-                     "must be given with motion = 'forced', in &unbalance")
+      if (scene%general%asked%is_machine) then
+        call check_drive_of_machine(keys, scene, free, begin)
+      else
+        call check_drive_of_bearing(keys, scene, free, begin)
+      end if
       if (parameter == follow_nothing) then
         call keys%refuse(group, 'final_value, points, step', .true., &
                          "needs a parameter other than 'none'")
-        return
+      else if (.not. keys%meant(group, end_key)) then
+        call keys%complain(group, end_key, 'must be given with parameter')
+      else if (.not. abs(periodic%final_value - begin) > 0.0_wp) then
+        call keys%complain(group, end_key, 'must differ from where the parameter begins')
+      else
+        call keys%rule(group, end_key, parameter /= follow_unbalance .and. &
+                       .not. periodic%final_value > 0.0_wp, 'must be positive')
       end if
-      begin = scene%operation%speed_rpm
-      if (parameter == follow_unbalance) begin = scene%unbalance%static
-      if (parameter == follow_mass) begin = scene%rotor%mass
-      call check_end(keys, periodic, begin)
     end associate
   end subroutine check_branch
 
-  !> The same of a machine: its speed moves, or all its unbalances do in proportion to the first.
-  subroutine check_machine_branch(keys, scene)
+  !> What drives the shaft of one bearing, and what may be followed; and where that begins.
+  subroutine check_drive_of_bearing(keys, scene, free, begin)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
+    logical, intent(in) :: free !! the motion
+    real(wp), intent(out) :: begin !! of the parameter, as its key has it
     character(len=*), parameter :: group = 'periodic'
-    real(wp) :: begin
-    logical :: free
 
-    associate (periodic => scene%periodic, parameter => scene%periodic%parameter, &
-               unbalance => scene%unbalance%value)
-      free = periodic%motion == motion_free
-      call keys%refuse('unbalance', 'positions, values, angles', free, &
-                       "has no use with motion = 'free'")
-      call keys%refuse(group, 'period_turns, start_turns', free, "has no use with motion = 'free'")
+    associate (parameter => scene%periodic%parameter)
+      call keys%refuse('unbalance', 'unbalance, unbalance_angle', free, unused_where_free)
+      call keys%rule(group, 'parameter', free .and. all(parameter /= [0, follow_speed, &
+                     follow_mass]), "must be 'speed_rpm' or 'mass' with motion = 'free': the "// &
+                     'limit cycles are followed from the onset of whirl on')
+      call keys%rule(group, 'unbalance', .not. (free .or. keys%meant(group, 'unbalance') .or. &
+                     parameter == follow_unbalance), &
+                     "must be given with motion = 'forced', in &unbalance")
+      begin = scene%operation%speed_rpm
+      if (parameter == follow_unbalance) begin = scene%unbalance%static
+      if (parameter == follow_mass) begin = scene%rotor%mass
+    end associate
+  end subroutine check_drive_of_bearing
+
+  !> The same of a machine: its speed moves, or all its unbalances do in proportion to the first.
+  subroutine check_drive_of_machine(keys, scene, free, begin)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    logical, intent(in) :: free !! the motion
+    real(wp), intent(out) :: begin !! of the parameter, as its key has it
+    character(len=*), parameter :: group = 'periodic'
+
+    associate (parameter => scene%periodic%parameter, unbalance => scene%unbalance%value)
+      call keys%refuse('unbalance', 'positions, values, angles', free, unused_where_free)
       call keys%rule(group, 'parameter', free .and. all(parameter /= [0, follow_speed]), &
                      "must be 'speed_rpm' with motion = 'free': the limit cycles of a machine "// &
                      'are followed from the onset of whirl on')
       call keys%rule(group, 'parameter', parameter == follow_mass .and. .not. free, &
                      "must be 'speed_rpm' or 'unbalance' beside &shaft")
-      call keys%refuse(group, 'first_amplitude', .not. free, "needs motion = 'free'")
       call keys%rule('unbalance', 'values', .not. free .and. &
                      .not. any(unbalance > 0.0_wp), "must be given with motion = 'forced'")
-      if (parameter == follow_nothing) then
-        call keys%refuse(group, 'final_value, points, step', .true., &
-                         "needs a parameter other than 'none'")
-        return
-      end if
       begin = scene%machine%speed_rpm
-      if (parameter == follow_unbalance .and. size(unbalance) > 0) then
-        begin = unbalance(1)
-        call keys%rule('unbalance', 'values', .not. begin > 0.0_wp, 'must begin with one above '// &
-                       "0: parameter = 'unbalance' follows that, and the others in proportion")
-      end if
-      call check_end(keys, periodic, begin)
+      if (parameter /= follow_unbalance .or. size(unbalance) == 0) return
+      begin = unbalance(1)
+      call keys%rule('unbalance', 'values', .not. begin > 0.0_wp, 'must begin with one above '// &
+                     "0: parameter = 'unbalance' follows that, and the others in proportion")
     end associate
-  end subroutine check_machine_branch
-
-  !> A branch has an end, which is not its beginning.
-  subroutine check_end(keys, periodic, begin)
-    type(case_keys_type), intent(inout) :: keys
-    type(periodic_case_type), intent(in) :: periodic
-    real(wp), intent(in) :: begin !! of the parameter, as its key has it
-    character(len=*), parameter :: group = 'periodic', end_key = 'final_value'
-
-    if (.not. keys%meant(group, end_key)) then
-      call keys%complain(group, end_key, 'must be given with parameter')
-    else if (.not. abs(periodic%final_value - begin) > 0.0_wp) then
-      call keys%complain(group, end_key, 'must differ from where the parameter begins')
-    else
-      call keys%rule(group, end_key, periodic%parameter /= follow_unbalance .and. &
-                     .not. periodic%final_value > 0.0_wp, 'must be positive')
-    end if
-  end subroutine check_end
+  end subroutine check_drive_of_machine
 
   !> Whether the file says that the shaft does not turn.
   logical function stands_still(keys, scene) result(still)

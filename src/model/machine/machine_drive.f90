@@ -114,7 +114,6 @@ contains
     class(machine_drive_type), intent(inout) :: self !! the drive
     real(wp), intent(in) :: speed     !! [rad/s]
     real(wp), intent(in) :: unbalance !! the first one [kg m]
-    integer :: i
 
     self%clock%speed = speed
     self%base%speed = speed
@@ -122,9 +121,7 @@ contains
     self%push%drive%speed = speed
     if (.not. self%first_unbalance() > 0.0_wp) return
     associate (share => unbalance/self%first_unbalance())
-      do i = 1, size(self%push)
-        self%push(i)%drive%unbalance = share*self%push(i)%drive%unbalance
-      end do
+      self%push%drive%unbalance = share*self%push%drive%unbalance
     end associate
   end subroutine turn_with
 

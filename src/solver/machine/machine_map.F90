@@ -14,7 +14,8 @@ module gfb_machine_map
   use gfb_machine_equilibrium, only: machine_bearing_type
   use gfb_machine_march, only: machine_march_type, begin_machine_march, resume_from_past, take_machine_step, end_machine_march
   use gfb_time_march, only: resume_march
-  use gfb_period_map, only: period_map_type, lay_out, pack_shaft, unpack_shaft, period_of, driven_at, moved_speed, moved_unbalance
+  use gfb_period_map, only: period_map_type, lay_out, begin_orbit, no_step, pack_shaft, unpack_shaft, period_of, &
+                            driven_at, moved_speed, moved_unbalance
   implicit none (type)
   private
   public :: create_machine_map
@@ -32,12 +33,13 @@ module gfb_machine_map
     real(wp), allocatable :: touch_down_gap(:) !! of each bearing: a smaller one is none [m]
     real(wp), allocatable, private :: gap(:)  !! smallest one of each bearing in the orbit that was kept [m]
   contains
-    procedure :: rest => rest_of_machine, release => release_machine, apply => apply_machine_map, touches_down
+    procedure :: rest => rest_of_machine, apply => apply_machine_map, touches_down
   end type machine_map_type
 
-  !> Unknowns of a film and its foils, now and one step ago.
+  !> A bearing now and one step ago.
   type :: past_type
-    real(wp), allocatable :: unknown(:, :)
+    real(wp), allocatable :: unknown(:, :) !! of film and foils [SI]
+    real(wp), dimension(shaft_coordinates, 2) :: place, velocity !! of its sleeve [m], [rad], [m/s], [rad/s]
   end type past_type
 
 contains
@@ -104,14 +106,6 @@ contains
     if (self%parameter > 0) x(size(x)) = self%driven(self%parameter)/self%parameter_scale
   end function rest_of_machine
 
-  !> A machine that is released from rest has rest as its past.
-  subroutine release_machine(self, x)
-    class(machine_map_type), intent(in) :: self !! the map
-    real(wp), intent(inout) :: x(:) !! its equilibrium [1]
-
-    call pack_shaft(self, spread(self%motion, 2, 2), spread(0.0_wp*self%motion, 2, 2), x)
-  end subroutine release_machine
-
   !> The point one period later, with the same period and parameter; `.false.` where a step has no answer.
   !>
   !> A step that would have to be shortened has none: all steps are equal.
@@ -132,10 +126,8 @@ contains
     self%problem = 'speed and period must be positive'
     if (.not. done) return
     call begin_at(self, x, march)
-    self%periods = self%periods + 1
+    call begin_orbit(self)
     self%gap = spread(huge(1.0_wp), 1, size(self%film))
-    if (allocated(self%orbit)) deallocate (self%orbit)
-    allocate (self%orbit(2*size(self%node), self%steps + 1))
     self%orbit(:, 1) = places_along(self%machine, march%motion(:, 1), self%node)
     do i = 1, self%steps
       call take_machine_step(self%machine, self%bearing, march, reason)
@@ -151,8 +143,7 @@ contains
       end do
       call pack_shaft(self, march%motion(:, :2), march%rate, y)
     else
-      self%problem = 'step '//text(i)//' of '//text(self%steps)//' has no answer at its length'
-      if (reason /= '') self%problem = self%problem//': '//reason
+      self%problem = no_step(self, i, reason)
     end if
     call end_machine_march(march, self%bearing)
   end function apply_machine_map
@@ -181,7 +172,6 @@ contains
     type(machine_drive_type) :: drive
     type(past_type) :: past(size(map%film))
     real(wp), dimension(size(map%motion), 2) :: motion, rate
-    real(wp), dimension(shaft_coordinates, 2) :: place, velocity
     real(wp) :: driven(size(map%driven)), none(size(map%machine%held))
     integer :: i
 
@@ -193,13 +183,13 @@ contains
     settings%end_time = huge(1.0_wp)
     call unpack_shaft(map, x, motion, rate)
     do i = 1, size(past)
-      call find_places(map%machine, i, motion, rate, map%bearing(i)%bearing%point%place, place, velocity)
-      associate (bearing => map%bearing(i)%bearing)
-        allocate (past(i)%unknown(bearing%local_size(), 2))
-        call unpack_film(map%film(i), x, place(bearing%coordinate, :), past(i)%unknown)
+      associate (bearing => map%bearing(i)%bearing, one => past(i))
+        call find_places(map%machine, i, motion, rate, bearing%point%place, one%place, one%velocity)
+        allocate (one%unknown(bearing%local_size(), 2))
+        call unpack_film(map%film(i), x, one%place(bearing%coordinate, :), one%unknown)
         bearing%point%speed = driven(moved_speed)
-        bearing%point%place = place(:, 1)
-        call bearing%set_unknowns(past(i)%unknown(:, 1))
+        bearing%point%place = one%place(:, 1)
+        call bearing%set_unknowns(one%unknown(:, 1))
       end associate
     end do
     none = 0.0_wp
@@ -208,8 +198,7 @@ contains
     march%finest = finest
     do i = 1, size(past)
       call take_back_springs(map%film(i), x, past(i)%unknown)
-      call find_places(map%machine, i, motion, rate, map%bearing(i)%bearing%point%place, place, velocity)
-      call resume_march(past(i)%unknown, place, velocity, map%bearing(i)%bearing, march%film(i))
+      call resume_march(past(i)%unknown, past(i)%place, past(i)%velocity, map%bearing(i)%bearing, march%film(i))
     end do
     call resume_from_past(motion, rate, march)
   end subroutine begin_at

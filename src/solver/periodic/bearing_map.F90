@@ -5,14 +5,13 @@ module gfb_bearing_map
   use petscvec
   use gfb_kinds, only: wp
   use gfb_units, only: pi
-  use gfb_text, only: text
   use gfb_march_state, only: march_settings_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_newton, only: newton_type, newton_report_type
   use gfb_time_march, only: march_type, begin_march, resume_march, take_step, end_march
   use gfb_film_entries, only: film_entries, pack_film, unpack_film, take_back_springs, rest_of_springs
-  use gfb_period_map, only: period_map_type, lay_out, pack_shaft, unpack_shaft, period_of, driven_at, &
+  use gfb_period_map, only: period_map_type, lay_out, begin_orbit, no_step, pack_shaft, unpack_shaft, period_of, driven_at, &
                             moved_speed, moved_unbalance, moved_mass
   implicit none (type)
   private
@@ -144,10 +143,7 @@ contains
       call begin_at(self, x, march)
       call take_back_springs(self%film(1), x, unknown)
       call resume_march(unknown, place, velocity, bearing, march)
-      self%periods = self%periods + 1
-      self%smallest_gap = huge(1.0_wp)
-      if (allocated(self%orbit)) deallocate (self%orbit)
-      allocate (self%orbit(planar, self%steps + 1))
+      call begin_orbit(self)
       self%orbit(:, 1) = march%place(:2, 1)
       do i = 1, self%steps
         call take_step(march, bearing, self%newton, report)
@@ -160,8 +156,8 @@ contains
         call pack_film(self%film(1), march%unknown, y, bearing%dampers%springs)
         call pack_shaft(self, places_in(bearing, march%unknown), march%velocity(:2, :), y)
       else
-        self%problem = 'step '//text(i)//' of '//text(self%steps)//' has no answer at its length'
-        if (.not. report%converged) self%problem = self%problem//': '//report%reason
+        self%problem = no_step(self, i, '')
+        if (.not. report%converged) self%problem = no_step(self, i, report%reason)
       end if
       call end_march(march, bearing)
     end associate

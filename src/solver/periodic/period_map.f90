@@ -9,21 +9,22 @@
 !> own unknowns of the films and all of the rest.
 module gfb_period_map
   use gfb_kinds, only: wp
+  use gfb_text, only: text
   use gfb_units, only: pi
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_film_entries, only: film_entries_type
   implicit none (type, external)
   private
-  public :: lay_out, pack_shaft, unpack_shaft, dots, length_of, parameter_of, period_of, &
-        speed_of, driven_at, last_step
+  public :: lay_out, begin_orbit, no_step, pack_shaft, unpack_shaft, dots, length_of, &
+            parameter_of, period_of, speed_of, driven_at, last_step
 
-  !> what the parameter is
+  !> What the parameter is.
   integer, parameter, public :: moved_speed = 1, moved_unbalance = 2, moved_mass = 3
   integer, parameter :: parameters = 3
 
   !> The map.
   type, abstract, public :: period_map_type
-    !> speed [rad/s], unbalance [kg m] and mass [kg], but for the parameter
+    !> Speed [rad/s], unbalance [kg m] and mass [kg], but for the parameter.
     real(wp) :: driven(parameters) = 0.0_wp
     integer :: parameter = 0         !! `moved_speed`, ...; 0: none
     logical :: free = .false.        !! the period is an unknown; else it is that of turns
@@ -47,7 +48,7 @@ module gfb_period_map
     character(len=:), allocatable :: problem !! why it had no end
   contains
     procedure(rest_interface), deferred :: rest
-    procedure(release_interface), deferred :: release
+    procedure :: release => stay_at_rest
     procedure(apply_interface), deferred :: apply
     procedure(touches_interface), deferred :: touches_down
   end type period_map_type
@@ -61,16 +62,6 @@ module gfb_period_map
       class(period_map_type), intent(in) :: self !! laid out, its bearings in equilibrium
       real(wp), allocatable :: x(:) !! [1]
     end function rest_interface
-
-    !> Gives a point of rest the past of a shaft that is released there, as a march over time has
-    !> it.
-    subroutine release_interface(self, x)
-      import :: period_map_type, wp
-      implicit none (type, external)
-      !> laid out, its bearings in equilibrium, which is kept
-      class(period_map_type), intent(in) :: self
-      real(wp), intent(inout) :: x(:) !! that equilibrium [1]
-    end subroutine release_interface
 
     !> The point one period later, with the same period and parameter; `.false.` where a step has no
     !> answer.
@@ -110,6 +101,34 @@ contains
     end do
     map%tail = 4*size(map%scale) + 2
   end subroutine lay_out
+
+  !> Gives a point of rest the past of a shaft that is released there, as a march over time has it:
+  !> rest, where the march does not say more.
+  subroutine stay_at_rest(self, x)
+    class(period_map_type), intent(in) :: self !! laid out, its bearings in equilibrium, kept
+    real(wp), intent(inout) :: x(:) !! that equilibrium [1]
+  end subroutine stay_at_rest
+
+  !> One period more, with room for its orbit.
+  pure subroutine begin_orbit(map)
+    class(period_map_type), intent(inout) :: map !! the map
+
+    map%periods = map%periods + 1
+    map%smallest_gap = huge(1.0_wp)
+    if (allocated(map%orbit)) deallocate (map%orbit)
+    allocate (map%orbit(2*size(map%place), map%steps + 1))
+  end subroutine begin_orbit
+
+  !> Why a period had no end.
+  pure function no_step(map, step, reason) result(problem)
+    class(period_map_type), intent(in) :: map !! the map
+    integer, intent(in) :: step !! that has no answer
+    character(len=*), intent(in) :: reason !! why, where that is known
+    character(len=:), allocatable :: problem
+
+    problem = 'step '//text(step)//' of '//text(map%steps)//' has no answer at its length'
+    if (reason /= '') problem = problem//': '//reason
+  end function no_step
 
   !> Motions and rates of the shaft as entries.
   pure subroutine pack_shaft(map, motion, rate, x)
@@ -158,8 +177,8 @@ contains
     end do
     associate (shaft => map%local, n => size(map%scale))
       row(shaft + 1:shaft + n) = x(shaft + 1:shaft + n) - x(shaft + n + 1:shaft + 2*n)
-      row(shaft + 2*n + 1:shaft + 3*n) = x(shaft + 2*n + 1:shaft + 3*n) - x(shaft + 3*n + &
-            1:shaft + 4*n)
+      row(shaft + 2*n + 1:shaft + 3*n) = x(shaft + 2*n + 1:shaft + 3*n) - &
+                                         x(shaft + 3*n + 1:shaft + 4*n)
     end associate
   end function last_step
 

@@ -50,7 +50,6 @@ contains
     body = machine%shaft%body()
     own%driven = [angular_speed(scene%operation%speed_rpm), own%drive%first_unbalance(), body%mass]
     own%settings = [(settings_of(part(i)%scene), i=1, size(part))]
-    own%settings%end_time = huge(1.0_wp)
     own%motion = free_motions(answer%held, answer%motion)
     own%place = shown_places(scene%machine)
     own%node = nodes_of_places(machine)

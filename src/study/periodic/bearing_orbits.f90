@@ -9,6 +9,7 @@ module gfb_bearing_orbits
   use gfb_bearing_system, only: bearing_system_type
   use gfb_newton, only: newton_type
   use gfb_time_march, only: begin_rubbing
+  use gfb_transient, only: settings_of
   use gfb_period_map, only: period_map_type, moved_speed, moved_unbalance, moved_mass
   use gfb_bearing_map, only: bearing_map_type, create_map
   implicit none (type, external)
@@ -38,13 +39,11 @@ contains
     own%drive%speed = angular_speed(scene%operation%speed_rpm)
     own%drive%unbalance = scene%unbalance%static
     own%drive%unbalance_angle = scene%unbalance%angle
-    own%settings%damping = scene%foil_damping%foundation_damping
-    own%settings%arm = scene%foil_damping%arm
-    own%settings%loss_time = scene%foil_damping%loss_time()
+    own%settings = settings_of(scene)
+    own%settings%unsolved = 0.0_wp ! what is left of steps does not close
     if (.not. scene%shaft_contact%present) own%touch_down_gap = scene%solver%touch_down_gap
-    own%driven = [own%drive%speed, own%drive%unbalance, own%drive%mass]
-    call set_parameter(scene%periodic, own, bounds)
     call create_map(bearing, newton, own)
+    call set_parameter(scene%periodic, own, bounds)
     call move_alloc(own, map)
   end subroutine map_of_bearing
 
