@@ -105,7 +105,7 @@ def check_cycle(checks, folder):
     row = REFERENCE["cycle"][0]
     extents = []
     for steps in (50, 100):
-        content = moving_case(folder, "M4", float(row["speed_rpm"]), {"turns": 90.0, "steps_per_turn": steps, "pulse": (2.0, 0.0), "pulse_length": 1.0e-3},
+        content = moving_case(folder, "M4", float(row["speed_rpm"]), {"turns": 90.0, "steps_per_turn": steps, "pulse": (2.0e-2, 0.0), "pulse_length": 1.0e-3},
                               None, (60, 8), row["stations"])
         answer = solve(folder, f"cycle_{steps}", content)
         table = lines(answer.stem)

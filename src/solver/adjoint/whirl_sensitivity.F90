@@ -201,14 +201,14 @@ contains
     complex(wp), allocatable :: z(:, :), slope(:, :)
     real(wp), allocatable :: gradient(:, :)
     PetscErrorCode :: ierr
-    logical :: found, all_found
+    logical :: all_found
     integer :: k
 
     call hold_heat(bearing, held)
     call respond(scene, held%bearing, form, response, newton%log)
     form%closed = closed_contacts(held%bearing)
     allocate (form%motion(held%bearing%local_size(), 2, planar))
-    associate (part => response%part(1), one => response%one, other => response%other, rate => form%rate)
+    associate (part => response%part(1), change => response%change, rate => form%rate)
       allocate (z(size(part%coordinate), size(part%coordinate)), source=(0.0_wp, 0.0_wp))
       slope = z
       call find_sample(held%bearing, response, 1, rate, z, slope, all_found)
@@ -219,20 +219,14 @@ contains
         PetscCallA(VecDuplicate(held%bearing%state, form%adjoint(1, k), ierr))
         PetscCallA(VecDuplicate(held%bearing%state, form%adjoint(2, k), ierr))
         if (.not. all_found) cycle
-        PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
-        PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
-        PetscCallA(VecScale(other, aimag(rate), ierr))
-        call part%solver%solve(one, other, found)
-        all_found = all_found .and. found
-        call held%bearing%get_unknowns(form%motion(:, 1, k), one)
-        call held%bearing%get_unknowns(form%motion(:, 2, k), other)
+        call held%bearing%get_unknowns(form%motion(:, 1, k), change%re(k))
+        call held%bearing%get_unknowns(form%motion(:, 2, k), change%im(k))
         PetscCallA(VecSet(form%adjoint(1, k), 0.0_wp, ierr))
         PetscCallA(VecSet(form%adjoint(2, k), 0.0_wp, ierr))
         call held%bearing%exchange%add(gradient(:, k)*held%bearing%unknown_scale, form%adjoint(1, k))
         call keep_entries(form%adjoint(1, k), part%kept)
-        call part%solver%solve(form%adjoint(1, k), form%adjoint(2, k), found, transposed=.true.)
-        all_found = all_found .and. found
       end do
+      if (all_found) call part%solver%solve(form%adjoint(1, :), form%adjoint(2, :), all_found, transposed=.true.)
     end associate
     problem = ''
     if (.not. all_found) problem = response_failure(response)
@@ -278,28 +272,26 @@ contains
     complex(wp), allocatable :: force(:)
     PetscErrorCode :: ierr
     PetscScalar :: along(2, 2)
-    integer :: i, j, k, n
+    integer :: i, j, k
 
     call hold_heat(bearing, held)
     call respond(scene, held%bearing, form, response)
     problem = ''
     if (any_rank(any(closed_contacts(held%bearing) .neqv. form%closed))) problem = flips
     call combine(response%equations, form%rate)
-    associate (part => response%part(1), one => response%one, other => response%other, rest => response%rise)
+    associate (part => response%part(1), one => response%one, other => response%other, rise => response%rise)
       do k = 1, planar
         call held%bearing%exchange%put(form%motion(:, 1, k)/held%bearing%unknown_scale, one)
         call held%bearing%exchange%put(form%motion(:, 2, k)/held%bearing%unknown_scale, other)
         force = cmplx(forces_of(held%bearing, response, part, k, 1.0_wp, one), &
                       forces_of(held%bearing, response, part, k, 0.0_wp, other), wp)
         call find_rest(response, form%rate, k)
-        do n = 1, 2
-          call keep_entries(rest(n), part%kept)
-        end do
+        call keep_entries(rise%re(k), part%kept)
+        call keep_entries(rise%im(k), part%kept)
         do j = 1, planar
           do i = 1, 2
-            do n = 1, 2
-              PetscCallA(VecDot(form%adjoint(i, j), rest(n), along(i, n), ierr))
-            end do
+            PetscCallA(VecDot(form%adjoint(i, j), rise%re(k), along(i, 1), ierr))
+            PetscCallA(VecDot(form%adjoint(i, j), rise%im(k), along(i, 2), ierr))
           end do
           matrix(j, k) = force(j) + cmplx(along(1, 1) - along(2, 2), along(1, 2) + along(2, 1), wp)
         end do
@@ -308,7 +300,7 @@ contains
     call destroy_response(response)
   end subroutine evaluate_form
 
-  !> What the motion in `one` and `other` leaves of the equations, \( b - A y \), into the first two of `rise`.
+  !> What the motion in `one` and `other` leaves of the equations, \( b - A y \), into that of `rise`.
   subroutine find_rest(response, rate, coordinate)
     type(dynamic_response_type), intent(in) :: response !! with A combined
     complex(wp), intent(in) :: rate !! lambda [1/s]
@@ -316,18 +308,19 @@ contains
     PetscErrorCode :: ierr
 
     associate (re => response%equations%real_part, im => response%equations%imaginary_part, one => response%one, &
-               other => response%other, rise => response%rise, steady => response%steady_column(coordinate), &
+               other => response%other, rest_re => response%rise%re(coordinate), rest_im => response%rise%im(coordinate), &
+               product => response%change%re(coordinate), steady => response%steady_column(coordinate), &
                squeeze => response%squeeze_column(coordinate))
-      PetscCallA(MatMult(re, one, rise(1), ierr))
-      PetscCallA(MatMult(im, other, rise(3), ierr))
-      PetscCallA(VecAYPX(rise(1), -1.0_wp, rise(3), ierr))
-      PetscCallA(VecAXPY(rise(1), 1.0_wp, steady, ierr))
-      PetscCallA(VecAXPY(rise(1), real(rate, wp), squeeze, ierr))
-      PetscCallA(MatMult(re, other, rise(2), ierr))
-      PetscCallA(MatMult(im, one, rise(4), ierr))
-      PetscCallA(VecAXPY(rise(2), 1.0_wp, rise(4), ierr))
-      PetscCallA(VecScale(rise(2), -1.0_wp, ierr))
-      PetscCallA(VecAXPY(rise(2), aimag(rate), squeeze, ierr))
+      PetscCallA(MatMult(re, one, rest_re, ierr))
+      PetscCallA(MatMult(im, other, product, ierr))
+      PetscCallA(VecAYPX(rest_re, -1.0_wp, product, ierr))
+      PetscCallA(VecAXPY(rest_re, 1.0_wp, steady, ierr))
+      PetscCallA(VecAXPY(rest_re, real(rate, wp), squeeze, ierr))
+      PetscCallA(MatMult(re, other, rest_im, ierr))
+      PetscCallA(MatMult(im, one, product, ierr))
+      PetscCallA(VecAXPY(rest_im, 1.0_wp, product, ierr))
+      PetscCallA(VecScale(rest_im, -1.0_wp, ierr))
+      PetscCallA(VecAXPY(rest_im, aimag(rate), squeeze, ierr))
     end associate
   end subroutine find_rest
 

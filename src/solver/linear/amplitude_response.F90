@@ -13,7 +13,7 @@ module gfb_amplitude_response
   use gfb_bearing_system, only: bearing_system_type
   use gfb_contacts_in_motion, only: vibrate_contacts
   use gfb_film_rates, only: fill_friction
-  use gfb_dynamic_response, only: dynamic_response_type, prepare_part, solve_part
+  use gfb_dynamic_response, only: dynamic_response_type, motion_vectors_type, prepare_part, solve_part
   use gfb_vibration_equations, only: combine
   implicit none (type)
   private
@@ -67,7 +67,7 @@ contains
       vibration%passes = pass
       call solve_motion(bearing, response, rate, coordinate, vibration, found)
       if (.not. found) return
-      call answer_contacts(bearing, response, amplitude, next, vibration%lost)
+      call answer_contacts(bearing, response%change, coordinate, amplitude, next, vibration%lost)
       change = (next - vibration%stiffness)/max(abs(vibration%stiffness), tiny(1.0_wp))
       vibration%converged = maxval(largest_over_ranks([0.0_wp, maxval(abs(change))])) <= tolerance
       if (vibration%converged) return
@@ -127,17 +127,18 @@ contains
   end subroutine add_friction
 
   !> What the contacts answer to the motion that was solved last.
-  subroutine answer_contacts(bearing, response, amplitude, stiffness, lost)
+  subroutine answer_contacts(bearing, change, coordinate, amplitude, stiffness, lost)
     type(bearing_system_type), intent(in) :: bearing
-    type(dynamic_response_type), intent(in) :: response
+    type(motion_vectors_type), intent(in) :: change !! of the unknowns
+    integer, intent(in) :: coordinate !! of the shaft that moves
     real(wp), intent(in) :: amplitude !! [m]
     complex(wp), intent(out) :: stiffness(:) !! [N/m]
     real(wp), intent(out) :: lost !! [J]
     real(wp), dimension(bearing%local_size()) :: in_phase, behind
     real(wp) :: total(1)
 
-    call bearing%get_unknowns(in_phase, response%one)
-    call bearing%get_unknowns(behind, response%other)
+    call bearing%get_unknowns(in_phase, change%re(coordinate))
+    call bearing%get_unknowns(behind, change%im(coordinate))
     call vibrate_pads(bearing, in_phase, behind, amplitude, stiffness, lost)
     total = sum_over_ranks([lost])
     lost = total(1)*merge(2.0_wp, 1.0_wp, bearing%mesh%half)

@@ -62,10 +62,10 @@ module gfb_complex_factors
       integer(c_int), value :: place, value
     end subroutine gfb_mumps_control
 
-    function gfb_mumps_run(one, job, right) result(status) bind(c)
+    function gfb_mumps_run(one, job, sides, right) result(status) bind(c)
       import :: c_int, c_ptr
       type(c_ptr), value :: one, right
-      integer(c_int), value :: job
+      integer(c_int), value :: job, sides
       integer(c_int) :: status
     end function gfb_mumps_run
 
@@ -149,6 +149,7 @@ contains
     PetscCallA(MatGetOwnershipRange(real_part, first, last, ierr))
     length = longest_row(real_part)
     allocate (column(length), re(length), im(length))
+    im = 0.0_wp
     factors%filled = 0
     factors%largest = 0.0_wp
     do row = first, last - 1
@@ -156,7 +157,6 @@ contains
         call put_entry(row, (1.0_wp, 0.0_wp))
         cycle
       end if
-      im = 0.0_wp
       if (present(imaginary_part)) call copy_row(imaginary_part, row, length, column, im)
       call copy_row(real_part, row, length, column, re)
       total = 0.0_wp
@@ -194,12 +194,12 @@ contains
     if (.not. c_associated(self%mumps)) return
     call visit_entries(self, real_part, imaginary_part)
     if (.not. self%analysed) then
-      status = gfb_mumps_run(self%mumps, analyse, c_null_ptr)
+      status = gfb_mumps_run(self%mumps, analyse, 0_c_int, c_null_ptr)
       self%analysed = status >= 0
     end if
     if (.not. self%analysed) return
     do
-      status = gfb_mumps_run(self%mumps, factor, c_null_ptr)
+      status = gfb_mumps_run(self%mumps, factor, 0_c_int, c_null_ptr)
       room = larger_workspace(status, self%room)
       if (room == 0) return
       call gfb_mumps_control(self%mumps, room_control, int(room, c_int))
@@ -211,36 +211,44 @@ contains
   !> Solves with the factors there are; improved once where the equations are not met to round-off.
   subroutine solve_complex(self, re, im, solved, transposed)
     class(complex_factors_type), intent(in) :: self !! made before
-    Vec, intent(in) :: re, im !! right side, overwritten by the solution
-    logical, intent(out) :: solved !! the solution meets the equations
+    Vec, intent(in) :: re(:), im(:) !! right sides, overwritten by their solutions
+    logical, intent(out) :: solved !! all solutions meet the equations
     logical, intent(in), optional :: transposed !! those of the transposed matrix, not of its conjugate
-    complex(wp), allocatable :: right(:), residual(:), answer(:)
-    complex(wp), allocatable, target :: change(:)
-    real(wp) :: size_of(3), error
-    integer :: pass
+    complex(wp), allocatable, dimension(:, :) :: right, residual, answer ! (unknowns of this rank; of all for the answer, right sides)
+    complex(wp), allocatable, target :: change(:, :)
+    real(wp) :: size_of(3, size(re)), error
+    integer :: pass, k
     logical :: turned
 
     turned = .false.
     if (present(transposed)) turned = transposed
     call gfb_mumps_control(self%mumps, transposition_control, merge(0_c_int, 1_c_int, turned))
-    right = [cmplx(values_of(re), values_of(im), wp)]
+    allocate (right(self%entries(this_rank() + 1), size(re)))
+    do k = 1, size(re)
+      right(:, k) = cmplx(values_of(re(k)), values_of(im(k)), wp)
+    end do
     allocate (residual, source=right)
-    allocate (change(sum(self%entries)), answer(sum(self%entries)))
+    allocate (change(sum(self%entries), size(re)), answer(sum(self%entries), size(re)))
     answer = 0.0_wp
     do pass = 1, 2
       call solve_once(self, residual, change, solved)
       if (.not. solved) return
       answer = answer + change
       residual = right
-      call subtract_product(self, answer, turned, residual)
-      size_of = largest_over_ranks([largest_of(residual), largest_of(right), largest_of(answer)])
-      error = size_of(1)/max(tiny(1.0_wp), self%largest*size_of(3) + size_of(2))
+      do k = 1, size(re)
+        call subtract_product(self, answer(:, k), turned, residual(:, k))
+        size_of(:, k) = [largest_of(residual(:, k)), largest_of(right(:, k)), largest_of(answer(:, k))]
+      end do
+      size_of = reshape(largest_over_ranks(reshape(size_of, [size(size_of)])), shape(size_of))
+      error = maxval(size_of(1, :)/max(tiny(1.0_wp), self%largest*size_of(3, :) + size_of(2, :)))
       if (error <= refined) exit
     end do
     solved = error <= accepted ! not so for NaN
     associate (before => self%before(this_rank() + 1))
-      call put_values(real(answer(before + 1:before + size(right)), wp), re)
-      call put_values(aimag(answer(before + 1:before + size(right))), im)
+      do k = 1, size(re)
+        call put_values(real(answer(before + 1:before + size(right, 1), k), wp), re(k))
+        call put_values(aimag(answer(before + 1:before + size(right, 1), k)), im(k))
+      end do
     end associate
   end subroutine solve_complex
 
@@ -263,17 +271,20 @@ contains
     logarithm = cmplx(both(1), both(2), wp)
   end function log_of_factors
 
-  !> One solution, whole on every rank.
+  !> Solutions, whole on every rank.
   subroutine solve_once(factors, right, answer, solved)
     type(complex_factors_type), intent(in) :: factors
-    complex(wp), intent(in) :: right(:) !! of this rank
-    complex(wp), contiguous, target, intent(out) :: answer(:)
+    complex(wp), contiguous, intent(in) :: right(:, :) !! of this rank
+    complex(wp), contiguous, target, intent(out) :: answer(:, :)
     logical, intent(out) :: solved
     PetscErrorCode :: ierr
+    integer :: k
 
-    call MPI_Gatherv(right, size(right), MPI_DOUBLE_COMPLEX, answer, factors%entries, factors%before, MPI_DOUBLE_COMPLEX, &
-                     0, PETSC_COMM_WORLD, ierr)
-    solved = gfb_mumps_run(factors%mumps, solve, c_loc(answer)) >= 0
+    do k = 1, size(right, 2)
+      call MPI_Gatherv(right(:, k), size(right, 1), MPI_DOUBLE_COMPLEX, answer(:, k), factors%entries, factors%before, MPI_DOUBLE_COMPLEX, &
+                       0, PETSC_COMM_WORLD, ierr)
+    end do
+    solved = gfb_mumps_run(factors%mumps, solve, int(size(answer, 2), c_int), c_loc(answer)) >= 0
     call MPI_Bcast(answer, size(answer), MPI_DOUBLE_COMPLEX, 0, PETSC_COMM_WORLD, ierr)
   end subroutine solve_once
 

@@ -177,14 +177,15 @@ contains
   !> Solves until the equations are met to round-off, or no pass comes nearer.
   subroutine solve_by_iterations(self, re, im, solved, transposed)
     class(complex_iterations_type), intent(in) :: self !! prepared before
-    Vec, intent(in) :: re, im !! right side, overwritten by the solution
-    logical, intent(out) :: solved !! the solution meets the equations
+    Vec, intent(in) :: re(:), im(:) !! right sides, overwritten by their solutions
+    logical, intent(out) :: solved !! all solutions meet the equations
     logical, intent(in), optional :: transposed !! those of the transposed matrix, not of its conjugate
     Mat :: matrix
     KSP :: linear
     Vec :: answer, right
     PetscErrorCode :: ierr
-    logical :: turned
+    logical :: turned, found
+    integer :: k
 
     turned = .false.
     if (present(transposed)) turned = transposed
@@ -196,20 +197,26 @@ contains
       call create_linear(matrix, self%motions, linear)
     end if
     PetscCallA(MatCreateVecs(matrix, answer, right, ierr))
-    PetscCallA(VecStrideScatter(re, 0_pint, right, INSERT_VALUES, ierr))
-    PetscCallA(VecStrideScatter(im, 1_pint, right, INSERT_VALUES, ierr))
-    ! The transposed matrix is the conjugate of the one whose equations are solved.
+    solved = .true.
+    do k = 1, size(re)
+      PetscCallA(VecStrideScatter(re(k), 0_pint, right, INSERT_VALUES, ierr))
+      PetscCallA(VecStrideScatter(im(k), 1_pint, right, INSERT_VALUES, ierr))
+      ! The transposed matrix is the conjugate of the one whose equations are solved.
+      if (turned) then
+        PetscCallA(VecStrideScale(right, 1_pint, -1.0_wp, ierr))
+      end if
+      call improve(linear, matrix, right, answer, found)
+      solved = solved .and. found
+      if (turned) then
+        PetscCallA(VecStrideScale(answer, 1_pint, -1.0_wp, ierr))
+      end if
+      PetscCallA(VecStrideGather(answer, 0_pint, re(k), INSERT_VALUES, ierr))
+      PetscCallA(VecStrideGather(answer, 1_pint, im(k), INSERT_VALUES, ierr))
+    end do
     if (turned) then
-      PetscCallA(VecStrideScale(right, 1_pint, -1.0_wp, ierr))
-    end if
-    call improve(linear, matrix, right, answer, solved)
-    if (turned) then
-      PetscCallA(VecStrideScale(answer, 1_pint, -1.0_wp, ierr))
       PetscCallA(KSPDestroy(linear, ierr))
       PetscCallA(MatDestroy(matrix, ierr))
     end if
-    PetscCallA(VecStrideGather(answer, 0_pint, re, INSERT_VALUES, ierr))
-    PetscCallA(VecStrideGather(answer, 1_pint, im, INSERT_VALUES, ierr))
     PetscCallA(VecDestroy(answer, ierr))
     PetscCallA(VecDestroy(right, ierr))
   end subroutine solve_by_iterations

@@ -34,13 +34,13 @@ void gfb_mumps_control(ZMUMPS_STRUC_C *one, int place, int value)
   one->icntl[place - 1] = value;
 }
 
-/* Analysis (job 1), factors (2) or solution (3); returns INFOG(1), negative where it failed. The right side, wanted on
-   the first rank, is overwritten by the solution. */
-int gfb_mumps_run(ZMUMPS_STRUC_C *one, int job, ZMUMPS_COMPLEX *right)
+/* Analysis (job 1), factors (2) or solutions (3); returns INFOG(1), negative where it failed. The right sides, wanted one
+   behind the other on the first rank, are overwritten by their solutions. */
+int gfb_mumps_run(ZMUMPS_STRUC_C *one, int job, int sides, ZMUMPS_COMPLEX *right)
 {
   one->job = job;
   one->rhs = right;
-  one->nrhs = 1;
+  one->nrhs = sides;
   one->lrhs = one->n;
   zmumps_c(one);
   return one->infog[0];

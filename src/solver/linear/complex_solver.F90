@@ -34,12 +34,12 @@ module gfb_complex_solver
       integer, intent(inout) :: enlargements !! of the workspace of factors, counted on
     end subroutine prepare
 
-    !> Solves with the matrix that was taken last. Collective.
+    !> Solves with the matrix that was taken last, for all right sides at once. Collective.
     subroutine solve(self, re, im, solved, transposed)
       import :: complex_solver_type, tVec
       class(complex_solver_type), intent(in) :: self !! prepared before
-      Vec, intent(in) :: re, im !! right side, overwritten by the solution
-      logical, intent(out) :: solved !! the solution meets the equations
+      Vec, intent(in) :: re(:), im(:) !! right sides, overwritten by their solutions
+      logical, intent(out) :: solved !! all solutions meet the equations
       logical, intent(in), optional :: transposed !! those of the transposed matrix, not of its conjugate
     end subroutine solve
 

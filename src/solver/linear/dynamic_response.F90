@@ -55,6 +55,11 @@ module gfb_dynamic_response
     class(complex_solver_type), allocatable :: solver
   end type part_type
 
+  !> Complex vectors, one a motion.
+  type, public :: motion_vectors_type
+    type(tVec), allocatable :: re(:), im(:)
+  end type motion_vectors_type
+
   !> The linearised bearing.
   type, public :: dynamic_response_type
     integer :: factorizations = 0 !! so far
@@ -65,7 +70,9 @@ module gfb_dynamic_response
     type(vibration_equations_type) :: equations
     type(part_type), allocatable :: part(:)
     type(tVec) :: steady_column(shaft_coordinates), squeeze_column(shaft_coordinates) !! of the motions, the first ones
-    type(tVec) :: one, other, rise(4) !! work space
+    type(motion_vectors_type) :: change !! minus that of the unknowns, by each motion that was solved for last
+    type(motion_vectors_type) :: rise !! its derivative by lambda, where that was asked for
+    type(tVec) :: one, other !! work space
     type(bearing_system_type), allocatable :: opposite_bearing !! of tilts, where its foil is another
     type(dynamic_response_type), allocatable :: opposite       !! of that
     real(wp), allocatable, private :: solid_rate(:) !! slope of the asperities' pressure over the gap [Pa/m]
@@ -225,10 +232,9 @@ contains
     call create_sums(response%equations)
     PetscCallA(VecDuplicate(bearing%state, response%one, ierr))
     PetscCallA(VecDuplicate(bearing%state, response%other, ierr))
-    do k = 1, size(response%rise)
-      PetscCallA(VecDuplicate(bearing%state, response%rise(k), ierr))
-    end do
     response%motion = bearing%mesh%surface%motions()
+    call create_vectors(bearing, size(response%motion), response%change)
+    call create_vectors(bearing, size(response%motion), response%rise)
     do k = 1, size(response%motion)
       PetscCallA(VecDuplicate(bearing%state, response%steady_column(k), ierr))
       PetscCallA(VecDuplicate(bearing%state, response%squeeze_column(k), ierr))
@@ -238,6 +244,21 @@ contains
     call measure_asperities(bearing, response%solid_rate)
     call create_parts(bearing, response)
   end subroutine complete_response
+
+  !> Room for complex vectors.
+  subroutine create_vectors(bearing, motions, vectors)
+    type(bearing_system_type), intent(in) :: bearing
+    integer, intent(in) :: motions
+    type(motion_vectors_type), intent(inout) :: vectors
+    integer :: k
+    PetscErrorCode :: ierr
+
+    allocate (vectors%re(motions), vectors%im(motions))
+    do k = 1, motions
+      PetscCallA(VecDuplicate(bearing%state, vectors%re(k), ierr))
+      PetscCallA(VecDuplicate(bearing%state, vectors%im(k), ierr))
+    end do
+  end subroutine create_vectors
 
   !> Motions of both symmetries on half the width, or all motions at once.
   subroutine create_parts(bearing, response)
@@ -451,7 +472,7 @@ contains
   !> Forces of a part's motions, of the matrix that its solver has.
   subroutine solve_part(bearing, response, rate, wanted, part, coefficient, found, slope)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
-    type(dynamic_response_type), intent(in) :: response !! of it; `one` and `other` keep minus the last motion's change
+    type(dynamic_response_type), intent(in) :: response !! of it; `change` and `rise` keep the answers
     complex(wp), intent(in) :: rate   !! lambda [1/s]
     integer, intent(in) :: wanted     !! coordinates, from the first
     type(part_type), intent(in) :: part !! of the response, factorized
@@ -460,53 +481,70 @@ contains
     !> gets the derivatives by lambda, where that of the matrix was combined last [SI]
     complex(wp), intent(inout), optional :: slope(:, :)
     PetscErrorCode :: ierr
-    logical :: solved
+    integer, allocatable :: asked(:)
     integer :: i
 
-    found = .true.
-    do i = 1, size(part%coordinate)
-      associate (k => part%coordinate(i), one => response%one, other => response%other)
-        if (k > wanted) cycle
-        PetscCallA(VecWAXPY(one, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
-        PetscCallA(VecCopy(response%squeeze_column(k), other, ierr))
-        PetscCallA(VecScale(other, aimag(rate), ierr))
-        call part%solver%solve(one, other, solved)
-        if (.not. solved) found = .false.
-        ! The answer is minus the change, as the force is.
-        coefficient(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, 1.0_wp, one), &
-                                                forces_of(bearing, response, part, k, 0.0_wp, other), wp)
-        if (.not. present(slope)) cycle
-        call solve_rise(response, part, k, solved)
-        if (.not. solved) found = .false.
-        slope(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, 0.0_wp, response%rise(1)), &
-                                          forces_of(bearing, response, part, k, 0.0_wp, response%rise(2)), wp)
+    asked = pack(part%coordinate, part%coordinate <= wanted)
+    do i = 1, size(asked)
+      associate (k => asked(i), re => response%change%re(asked(i)), im => response%change%im(asked(i)))
+        PetscCallA(VecWAXPY(re, real(rate, wp), response%squeeze_column(k), response%steady_column(k), ierr))
+        PetscCallA(VecCopy(response%squeeze_column(k), im, ierr))
+        PetscCallA(VecScale(im, aimag(rate), ierr))
       end associate
     end do
+    call part%solver%solve(response%change%re(asked), response%change%im(asked), found)
+    ! The answer is minus the change, as the force is.
+    call take_forces(response%change, 1.0_wp, coefficient)
+    if (.not. (found .and. present(slope))) return
+    call solve_rise(response, part, asked, found)
+    call take_forces(response%rise, 0.0_wp, slope)
+
+  contains
+
+    subroutine take_forces(answer, motion, force)
+      type(motion_vectors_type), intent(in) :: answer
+      real(wp), intent(in) :: motion !! of the shaft, with it [m], [rad]
+      complex(wp), intent(inout) :: force(:, :) !! (force, motion) [SI]
+      integer :: i
+
+      do i = 1, size(asked)
+        associate (k => asked(i))
+          force(part%coordinate, k) = cmplx(forces_of(bearing, response, part, k, motion, answer%re(k)), &
+                                            forces_of(bearing, response, part, k, 0.0_wp, answer%im(k)), wp)
+        end associate
+      end do
+    end subroutine take_forces
   end subroutine solve_part
 
   !> How minus a change of the unknowns, y, rises with \( \lambda \): from \( A y = f_q + \lambda c_q \) follows
   !> \( A y' = c_q - A' y \).
   subroutine solve_rise(response, part, coordinate, solved)
-    type(dynamic_response_type), intent(in) :: response !! with A' combined; y in `one` and `other`, y' goes into `rise`
+    type(dynamic_response_type), intent(in) :: response !! with A' combined; y in `change`, y' goes into `rise`
     type(part_type), intent(in) :: part !! of the response, factorized
-    integer, intent(in) :: coordinate !! that moves
-    logical, intent(out) :: solved
+    integer, intent(in) :: coordinate(:) !! those that move
+    logical, intent(out) :: solved !! for all of them
     PetscErrorCode :: ierr
+    integer :: i
 
-    associate (re => response%equations%real_part, im => response%equations%imaginary_part, one => response%one, &
-               other => response%other, rise => response%rise)
-      PetscCallA(MatMult(re, one, rise(1), ierr))
-      PetscCallA(MatMult(im, other, rise(3), ierr))
-      PetscCallA(VecAYPX(rise(1), -1.0_wp, response%squeeze_column(coordinate), ierr))
-      PetscCallA(VecAXPY(rise(1), 1.0_wp, rise(3), ierr))
-      PetscCallA(MatMult(re, other, rise(2), ierr))
-      PetscCallA(MatMult(im, one, rise(4), ierr))
-      PetscCallA(VecAXPY(rise(2), 1.0_wp, rise(4), ierr))
-      PetscCallA(VecScale(rise(2), -1.0_wp, ierr))
-      call keep_entries(rise(1), part%kept)
-      call keep_entries(rise(2), part%kept)
-      call part%solver%solve(rise(1), rise(2), solved)
-    end associate
+    do i = 1, size(coordinate)
+      associate (k => coordinate(i))
+        associate (re => response%equations%real_part, im => response%equations%imaginary_part, product => response%one, &
+                   change_re => response%change%re(k), change_im => response%change%im(k), rise_re => response%rise%re(k), &
+                   rise_im => response%rise%im(k))
+          PetscCallA(MatMult(re, change_re, rise_re, ierr))
+          PetscCallA(MatMult(im, change_im, product, ierr))
+          PetscCallA(VecAYPX(rise_re, -1.0_wp, response%squeeze_column(k), ierr))
+          PetscCallA(VecAXPY(rise_re, 1.0_wp, product, ierr))
+          PetscCallA(MatMult(re, change_im, rise_im, ierr))
+          PetscCallA(MatMult(im, change_re, product, ierr))
+          PetscCallA(VecAXPY(rise_im, 1.0_wp, product, ierr))
+          PetscCallA(VecScale(rise_im, -1.0_wp, ierr))
+          call keep_entries(rise_re, part%kept)
+          call keep_entries(rise_im, part%kept)
+        end associate
+      end associate
+    end do
+    call part%solver%solve(response%rise%re(coordinate), response%rise%im(coordinate), solved)
   end subroutine solve_rise
 
   !> Weighted pressures of minus a change of the unknowns, with the asperities'.
@@ -594,9 +632,13 @@ contains
     end do
     PetscCallA(VecDestroy(response%one, ierr))
     PetscCallA(VecDestroy(response%other, ierr))
-    do i = 1, size(response%rise)
-      PetscCallA(VecDestroy(response%rise(i), ierr))
+    do i = 1, size(response%motion)
+      PetscCallA(VecDestroy(response%change%re(i), ierr))
+      PetscCallA(VecDestroy(response%change%im(i), ierr))
+      PetscCallA(VecDestroy(response%rise%re(i), ierr))
+      PetscCallA(VecDestroy(response%rise%im(i), ierr))
     end do
+    deallocate (response%change%re, response%change%im, response%rise%re, response%rise%im)
     call destroy_equations(response%equations)
   end subroutine destroy_response
 end module gfb_dynamic_response

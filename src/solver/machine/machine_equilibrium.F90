@@ -25,7 +25,7 @@ module gfb_machine_equilibrium
   use gfb_held_shaft, only: held_shaft_type
   use gfb_machine, only: machine_type, journal_type, hold_at_rest, place_of_sleeve
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_newton, only: newton_type
+  use gfb_newton, only: newton_type, has_factors
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   use gfb_start_position, only: solve_at
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -109,7 +109,7 @@ contains
     target = before
     target%place(coordinate) = place
     target%speed = speed
-    call solve_at(one%bearing, one%newton, target, .true., one%path, report)
+    call solve_at(one%bearing, one%newton, target, .true., one%path, report, near=has_factors(one%newton))
     if (.not. report%converged()) then
       one%bearing%point = before
       call one%bearing%set_unknowns(unknown)

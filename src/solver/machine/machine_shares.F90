@@ -76,14 +76,14 @@ contains
           PetscCallA(VecAXPY(other, aimag(rate*its), squeeze, ierr))
         end associate
       end do
-      call part%solver%solve(one, other, found)
+      call part%solver%solve([one], [other], found)
     end associate
     energy = 0.0_wp
     if (.not. found) return
     share%bearing => bearing
     share%response => response
-    share%one = response%rise(1)
-    share%other = response%rise(2)
+    share%one = response%rise%re(1)
+    share%other = response%rise%im(1)
     share%steady = response%equations%steady
     share%has_mass = response%equations%inertia%present
     if (share%has_mass) share%mass = response%equations%inertia%mass

@@ -96,7 +96,7 @@ contains
     PetscCallA(VecDuplicate(right, imaginary_part, ierr))
     PetscCallA(VecSet(imaginary_part, 0.0_wp, ierr))
     PetscCallA(VecCopy(right, answer, ierr))
-    call share%solver%solve(answer, imaginary_part, solved)
+    call share%solver%solve([answer], [imaginary_part], solved)
     PetscCallA(VecDestroy(imaginary_part, ierr))
   end subroutine solve_film
 

@@ -16,7 +16,7 @@ module gfb_start_position
   use gfb_gap_shapes, only: find_shapes, peak_of
   use gfb_bearing_system, only: bearing_system_type
   use gfb_film_room, only: undeflected_gap
-  use gfb_newton, only: newton_type, newton_report_type, solve_newton
+  use gfb_newton, only: newton_type, newton_report_type, solve_newton, solve_nearby
   use gfb_continuation, only: path_settings_type, path_report_type, follow_path
   implicit none (type)
   private
@@ -29,7 +29,7 @@ module gfb_start_position
 contains
 
   !> Newton's method at a point, as a path of one step.
-  subroutine solve_at(bearing, newton, target, fixed, settings, report, most)
+  subroutine solve_at(bearing, newton, target, fixed, settings, report, most, near)
     type(bearing_system_type), intent(inout) :: bearing !! the bearing, in its present state
     type(newton_type), target, intent(inout) :: newton !! its solver
     type(operating_point_type), intent(in) :: target   !! asked for
@@ -37,14 +37,19 @@ contains
     type(path_settings_type), intent(in) :: settings !! limits
     type(path_report_type), intent(out) :: report !! of a path of one step
     integer, intent(in), optional :: most !! iterations; the settings' by default
+    logical, intent(in), optional :: near !! beside the answer of the solve before, whose factors serve; default: it is not
     type(newton_report_type) :: solved
+    logical :: keeps_factors
     integer :: allowed
 
     bearing%point = target
     bearing%shaft_fixed = fixed
     allowed = newton%settings%maximum_iterations
     if (present(most)) newton%settings%maximum_iterations = min(most, allowed)
-    call solve_newton(newton, solved)
+    keeps_factors = .false.
+    if (present(near)) keeps_factors = near
+    if (keeps_factors) call solve_nearby(newton, solved)
+    if (.not. keeps_factors) call solve_newton(newton, solved)
     newton%settings%maximum_iterations = allowed
     report%ending = path_lost(solved%reason)
     if (solved%converged) then
