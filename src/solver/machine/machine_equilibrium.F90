@@ -48,6 +48,7 @@ module gfb_machine_equilibrium
   real(wp), parameter :: temperature_size = 200.0_wp !! steps of a temperature are measured by [K]
   real(wp), parameter :: least_power = 1.0e-3_wp !! that heat is measured by [W]
   real(wp), parameter :: difference = 1.0e-3_wp !! of a motion or temperature over its size, for derivatives [1]
+  real(wp), parameter :: last_digits = 1.0e-2_wp !! of a step's tolerance: kept factors leave a part of a step, new ones its square [1]
   real(wp), parameter :: progress = 0.95_wp !! imbalance over the best before, in so many steps:
   integer, parameter :: most_idle = 8
   real(wp), parameter :: least_share = 0.1_wp !! of a step within its limits: less is taken whatever it does [1]
@@ -102,14 +103,19 @@ contains
     character(len=:), allocatable, intent(out) :: reason !! why not; empty where it was
     type(operating_point_type) :: target, before
     type(path_report_type) :: report
-    real(wp) :: unknown(one%bearing%local_size())
+    real(wp) :: unknown(one%bearing%local_size()), tolerance
+    logical :: near
 
+    near = has_factors(one%newton)
+    tolerance = one%newton%settings%step_tolerance
+    if (near) one%newton%settings%step_tolerance = last_digits*tolerance
     call one%bearing%get_unknowns(unknown)
     before = one%bearing%point
     target = before
     target%place(coordinate) = place
     target%speed = speed
-    call solve_at(one%bearing, one%newton, target, .true., one%path, report, near=has_factors(one%newton))
+    call solve_at(one%bearing, one%newton, target, .true., one%path, report, near=near)
+    one%newton%settings%step_tolerance = tolerance
     if (.not. report%converged()) then
       one%bearing%point = before
       call one%bearing%set_unknowns(unknown)
