@@ -12,7 +12,7 @@ module gfb_run_case
   use gfb_command_line, only: command_line_type
   use gfb_run_context, only: run_context_type, prepare_folder
   use gfb_study, only: study_type
-  use gfb_foil_plan, only: choose_reduction
+  use gfb_foil_plan, only: choose_solution
   use gfb_studies, only: create_study, run_scene
   use gfb_check_scene, only: check_scene
   implicit none (type)
@@ -78,7 +78,7 @@ contains
     only_look = line%check .or. line%shares >= 0
     if (.not. allocated(error) .and. .not. only_look) call prepare_folder(line%folder, error)
     if (allocated(error)) return
-    call choose_reduction(scene)
+    call choose_solution(scene)
     if (only_look) then
       call create_study(scene, line%branches, study, error)
       if (.not. allocated(error)) call check_scene(scene, study, line%shares, log, error)

@@ -27,7 +27,7 @@ module gfb_run_groups
   use gfb_scene_reading, only: read_scene
   use gfb_command_line, only: command_line_type
   use gfb_check_scene, only: check_scene
-  use gfb_foil_plan, only: choose_reduction
+  use gfb_foil_plan, only: choose_solution
   use gfb_sample, only: sample_type, write_sample
   use gfb_studies, only: create_study, run_scene
   use gfb_divided_bearing, only: run_divided_bearing
@@ -291,7 +291,7 @@ contains
     do i = 1, size(scenes)
       call read_scene(line%case_files(i)%path, scenes(i), one, line%strict)
       if (allocated(one)) call add(one%message, error, one%status)
-      if (.not. allocated(one)) call choose_reduction(scenes(i))
+      if (.not. allocated(one)) call choose_solution(scenes(i))
     end do
   end subroutine read_all
 

@@ -18,7 +18,7 @@ module gfb_scene_rules
   use gfb_foil_cases, only: missing_of_bumps
   use gfb_operation_case, only: operation_case_type, angular_speed
   use gfb_scene, only: scene_type
-  use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative
+  use gfb_mesh_case, only: linear_solver_direct, linear_solver_iterative, linear_solver_auto
   use gfb_study_cases, only: of_heat
   use gfb_sweep_case, only: sweep_case_type, operation_at, sweep_keys, sweep_load, sweep_speed, &
                             sweep_tilt_x, sweep_tilt_y
@@ -284,7 +284,8 @@ contains
                      bearing .and. .not. model%foil%has_bumps, &
                      needs_meshes//'nothing else moves by itself')
       call keys%rule('solver', 'linear_solver', analysis%finds_modes .and. &
-                     solver%linear_solver /= linear_solver_direct, "must be 'direct' for modes")
+                     all(solver%linear_solver /= [linear_solver_direct, linear_solver_auto]), &
+                     "must be 'direct' for modes")
       iterative = .not. analysis%finds_modes .and. solver%linear_solver == linear_solver_iterative
       factored = ''
       if (iterative .and. bearing) factored = what_factors_do(scene)

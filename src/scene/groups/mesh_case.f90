@@ -17,9 +17,10 @@ module gfb_mesh_case
   integer, parameter, public :: linear_solver_direct = 1
   integer, parameter, public :: linear_solver_out_of_core = 2 !! direct, with factors in files
   integer, parameter, public :: linear_solver_iterative = 3
+  integer, parameter, public :: linear_solver_auto = 4 !! direct or iterative, by the size
 
   character(len=*), parameter :: linear_words(*) = [character(len=11) :: &
-                                                    'direct', 'out_of_core', 'iterative']
+                                                    'direct', 'out_of_core', 'iterative', 'auto']
 
   !> Of a search from nothing, unless the case bounds it. The dearest answers of
   !> docs/measured/population.md take 1,242 factorizations and 2.6e6 unknowns, with shells 834 and
@@ -39,7 +40,8 @@ module gfb_mesh_case
     real(wp) :: smallest_load_step = 1.0e-4_wp  !! of the whole path [1]
     real(wp) :: touch_down_gap = 0.0_wp         !! below it an equilibrium is refused [m]
     logical :: stability = .false.              !! count the foils' modes that grow
-    integer :: linear_solver = linear_solver_direct
+    integer :: linear_solver = linear_solver_auto
+    logical :: solver_chosen = .false.          !! by the program, for 'auto'
     logical :: memory_check = .true.            !! refuse what the machine cannot hold
   end type solver_case_type
 
@@ -108,7 +110,8 @@ contains
                           'count the growing modes of the foils, with the shaft fixed')
     call keys%choice_key('linear_solver', solver%linear_solver, linear_words, &
                          'factors in memory, factors in files, or iterations (shells whose '// &
-                         'bumps are not condensed)')
+                         'bumps are not condensed); `auto`: iterations from 500,000 unknowns '// &
+                         'of a bearing on, where nothing needs factors')
     call keys%logical_key('memory_check', solver%memory_check, &
                           'refuse a scene that needs more memory than the machine has')
   end subroutine read_solver_case

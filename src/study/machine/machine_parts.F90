@@ -14,6 +14,8 @@ module gfb_machine_parts
   use gfb_heated_film, only: wall_given
   use gfb_shaft_heat, only: shaft_heat_type, build_shaft_heat
   use gfb_model_case, only: half_width_no, half_width_yes
+  use gfb_mesh_case, only: linear_solver_direct, linear_solver_auto
+  use gfb_foil_plan, only: choose_solution
   use gfb_film_surface, only: axial_coordinate
   use gfb_mesh_plan, only: bearing_plan_type
   use gfb_held_shaft, only: held_shaft_type, free_motions
@@ -87,7 +89,10 @@ contains
         one%operation%moment = 0.0_wp
         one%operation%moment_given = machine%journal_tilts .and. one%bearing%row%has_sectors
         if (machine%journal_tilts) one%model%half_width = half_width_no
+        ! Its coefficients are those of vibrations, which factors find faster.
+        if (one%solver%linear_solver == linear_solver_auto) one%solver%linear_solver = linear_solver_direct
       end associate
+      call choose_solution(part%scene)
     end associate
   end subroutine read_part
 

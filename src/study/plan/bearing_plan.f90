@@ -112,6 +112,7 @@ contains
     type(scene_type), intent(in) :: scene !! what is asked for
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_plan_type), intent(out) :: plan !! what was chosen
+    character(len=:), allocatable :: asked
     integer :: nodes, films, sides
 
     plan%order = scene%model%film_order
@@ -171,7 +172,9 @@ contains
     if (scene%solver%linear_solver == linear_solver_out_of_core) then
       call log%line('linear solver: LU with factors in files, as linear_solver asks')
     else if (scene%solver%linear_solver == linear_solver_iterative) then
-      call log%line('linear solver: GMRES on two levels, as linear_solver asks; smaller '// &
+      asked = 'as linear_solver asks'
+      if (scene%solver%solver_chosen) asked = 'as there are many unknowns'
+      call log%line('linear solver: GMRES on two levels, '//asked//'; smaller '// &
                     'systems on the way get factors')
     end if
     if (scene%thermal%present) plan%memory = heated_memory(scene, nodes, plan%memory)

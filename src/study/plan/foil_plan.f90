@@ -4,7 +4,7 @@ module gfb_foil_plan
   use gfb_text, only: text
   use gfb_run_log, only: run_log_type
   use gfb_scene, only: scene_type
-  use gfb_scene_rules, only: is_symmetric
+  use gfb_scene_rules, only: is_symmetric, what_factors_do
   use gfb_model_case, only: half_width_auto, half_width_yes, reduction_guyan, reduction_none, &
                             reduction_auto
   use gfb_study_cases, only: part_words, part_strip
@@ -12,47 +12,99 @@ module gfb_foil_plan
                             sizes_mirror
   use gfb_strip_load_case, only: support_held, load_plates
   use gfb_foil_rules, only: strips_mirror
-  use gfb_mesh_case, only: linear_solver_out_of_core, linear_solver_iterative
+  use gfb_mesh_case, only: linear_solver_direct, linear_solver_out_of_core, &
+                           linear_solver_iterative, linear_solver_auto
   use gfb_memory_check, only: show_memory
   use gfb_memory_laws, only: strip_memory, bearing_memory, modes_memory
   use gfb_shell_geometry, only: node_unknowns
-  use gfb_foil_builder, only: foil_plan_type
+  use gfb_foil_builder, only: foil_plan_type, plate_stations, stations_follow_crests
   implicit none (type, external)
   private
-  public :: plan_foil, choose_reduction, count_bumps, has_friction, show_strips, strips_mirror
+  public :: plan_foil, choose_solution, count_bumps, has_friction, show_strips, strips_mirror
 
   !> Condensed bumps may take so many times what all unknowns take, by the laws: they have fewer of
   !> them to go through in each step. Of 18 scenes that were measured with both the choice was the
   !> faster one, or less than a fifth slower, in 17.
   real(wp), parameter :: most_times = 1.5_wp
 
+  !> Unknowns of a bearing of shells from which on iterations take no more time than factors, and
+  !> half the memory: docs/measured/memory.md has 414,579 (37 and 30 s) and 929,932 (86 and 138 s).
+  real(wp), parameter :: many_unknowns = 5.0e5_wp
+
 contains
+
+  !> Replaces what is asked of `auto` by what costs less, with the reasons in words.
+  subroutine choose_solution(scene)
+    type(scene_type), intent(inout) :: scene !! gets its reduction and its linear solver
+    call choose_linear_solver(scene)
+    call choose_reduction(scene)
+  end subroutine choose_solution
+
+  !> Replaces `linear_solver = 'auto'` by iterations where there are many unknowns and nothing needs
+  !> factors, by factors in memory elsewhere.
+  subroutine choose_linear_solver(scene)
+    type(scene_type), intent(inout) :: scene
+    real(wp) :: unknowns, nodes
+    integer :: rows, stations
+
+    if (scene%solver%linear_solver /= linear_solver_auto) return
+    scene%solver%linear_solver = linear_solver_direct
+    if (.not. scene%general%analysis%has_film) return
+    if (what_factors_do(scene) /= '' .or. scene%dynamics%present) return
+    if (scene%model%reduction == reduction_guyan) return
+    rows = solved_rows(scene, solves_half(scene))
+    call count_bumps(scene, rows, .false., stations, unknowns)
+    nodes = real(film_stations(scene), wp)*real(rows, wp)
+    unknowns = scene%bearing%all_pads()*(unknowns + (node_unknowns + 1)*nodes)
+    if (unknowns < many_unknowns) return
+    scene%solver%linear_solver = linear_solver_iterative
+    scene%solver%solver_chosen = .true.
+  end subroutine choose_linear_solver
+
+  !> Whether half the width is solved.
+  pure logical function solves_half(scene) result(half)
+    type(scene_type), intent(in) :: scene !! with bumps of shells
+
+    half = scene%model%half_width == half_width_yes
+    if (scene%model%half_width /= half_width_auto) return
+    half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil)
+    if (.not. scene%general%analysis%loads_strip) half = half .and. is_symmetric(scene)
+  end function solves_half
+
+  !> Nodes of film and top foil along the pad.
+  function film_stations(scene) result(stations)
+    type(scene_type), intent(in) :: scene !! of a bearing of shells
+    integer :: stations
+
+    stations = scene%model%film_order*scene%mesh%circumferential_elements + 1
+    if (stations_follow_crests(scene)) stations = size(plate_stations(scene))
+  end function film_stations
+
+  !> Rows of nodes over the width that is solved.
+  pure integer function solved_rows(scene, half) result(rows)
+    type(scene_type), intent(in) :: scene
+    logical, intent(in) :: half !! of the width
+
+    rows = scene%model%film_order*scene%mesh%axial_elements
+    if (half) rows = rows/2
+    rows = rows + 1
+  end function solved_rows
 
   !> Replaces `reduction = 'auto'` by what costs less in most scenes, with the reason in words, by
   !> the memory laws: they count entries, which time follows.
   subroutine choose_reduction(scene)
     type(scene_type), intent(inout) :: scene !! gets its reduction, if it asks for a choice
-    logical :: half
     real(wp) :: times
 
     if (scene%model%reduction /= reduction_auto) return
     scene%model%reduction = reduction_guyan
     if (.not. scene%model%foil%has_shell_bumps .or. scene%general%analysis%finds_modes) return
-    half = scene%model%half_width == half_width_yes
-    if (scene%model%half_width == half_width_auto) then
-      half = modulo(scene%mesh%axial_elements, 2) == 0 .and. sizes_mirror(scene%bump_foil)
-      if (.not. scene%general%analysis%loads_strip) then
-        half = half .and. is_symmetric(scene)
-      end if
-    end if
     if (scene%solver%linear_solver == linear_solver_iterative) then
       scene%model%reduction = reduction_none
-      scene%model%reduction_reason = "all unknowns, because linear_solver is 'iterative'"
+      scene%model%reduction_reason = 'all unknowns, because linear systems are iterated'
       return
     end if
-    associate (elements => scene%model%film_order*scene%mesh%axial_elements)
-      times = cost_of_lines(scene, merge(elements/2, elements, half) + 1)
-    end associate
+    times = cost_of_lines(scene, solved_rows(scene, solves_half(scene)))
     scene%model%reduction_reason = 'condensed, by '//text(times, 2)// &
                                    ' times the count of all unknowns'
     if (times <= most_times) return
@@ -62,7 +114,7 @@ contains
   end subroutine choose_reduction
 
   !> What condensed bumps take by the memory laws, over what all unknowns take.
-  pure function cost_of_lines(scene, rows) result(times)
+  function cost_of_lines(scene, rows) result(times)
     type(scene_type), intent(in) :: scene !! with bumps of shells
     integer, intent(in) :: rows           !! of nodes over the width that is solved
     real(wp) :: times                     !! [1]
@@ -76,7 +128,8 @@ contains
           memory(kind) = strip_memory(unknowns, stations, rows, kind == 1, &
                                       has_friction(scene), solver)
         else
-          memory(kind) = bearing_memory(stations*rows, unknowns, rows, kind == 1, solver)
+          memory(kind) = bearing_memory(film_stations(scene)*rows, unknowns, rows, kind == 1, &
+                                        solver)
         end if
       end associate
     end do
