@@ -118,6 +118,10 @@ def check_restart(checks, folder):
     counts = ("newton_iterations", "factorizations")  # a resumed run has those of its own start
     differ = [column for column in whole if column not in counts and not numpy.array_equal(whole[column], again[column])]
     checks.that(f"resumed: columns that differ {differ}", not differ)
+    with h5py.File(folder/"killed.h5", "r") as file:
+        units = {name: data.attrs["unit"] for name, data in file["transient"].items()}
+    strange = {name: unit for name, unit in units.items() if unit not in ("s", "1", "rad/s", "m", "rad", "N", "N m", "Pa")}
+    checks.that(f"units that nobody knows: {strange}", not strange)
 
 
 def check_all_kinds(checks, folder):

@@ -91,7 +91,12 @@ contains
     !> A column more.
     subroutine put(name, unit, meaning)
       character(len=*), intent(in) :: name, unit, meaning
-      history%column = [history%column, column_type(name, trim(unit), meaning)]
+      type(column_type) :: column
+
+      column%name = name
+      column%unit = trim(unit) ! gfortran's constructor would keep the length of before, and what stands behind
+      column%meaning = meaning
+      history%column = [history%column, column]
     end subroutine put
   end subroutine begin_history
 
