@@ -42,7 +42,7 @@ module gfb_bearing_system
     procedure :: begin_step => begin_bearing_step
     procedure :: virtual_work => work_on_foils
     procedure, non_overridable :: commit => commit_bearing
-    procedure, non_overridable :: return_to, find_motions
+    procedure, non_overridable :: return_to, find_motions, drop_matrices
     procedure, non_overridable :: destroy => destroy_bearing
   end type bearing_system_type
 
@@ -506,19 +506,27 @@ contains
     deallocate (self%pad)
   end subroutine destroy_bearing
 
+  !> Frees the matrix where it is not filled any more.
+  subroutine drop_matrices(self)
+    class(bearing_system_type), intent(inout) :: self !! keeps its state, pads and foils
+    PetscErrorCode :: ierr
+
+    PetscCallA(MatDestroy(self%jacobian, ierr))
+    if (self%is_meshed()) then
+      PetscCallA(MatDestroy(self%constant, ierr))
+    end if
+  end subroutine drop_matrices
+
   !> Frees vectors and matrix.
   subroutine free_equations(bearing)
     type(bearing_system_type), intent(inout) :: bearing !! keeps pads and foils
     PetscErrorCode :: ierr
     integer :: i
 
-    PetscCallA(MatDestroy(bearing%jacobian, ierr))
+    call bearing%drop_matrices()
     if (bearing%has_motions) then
       PetscCallA(MatDestroy(bearing%motions, ierr))
       bearing%has_motions = .false.
-    end if
-    if (bearing%is_meshed()) then
-      PetscCallA(MatDestroy(bearing%constant, ierr))
     end if
     if (allocated(bearing%numbers)) then
       do i = 0, size(bearing%pad)

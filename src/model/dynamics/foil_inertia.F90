@@ -42,11 +42,11 @@ contains
     type(weights_type), intent(in) :: weights !! there
     Mat, intent(in) :: real_part, imaginary_part !! of the bearing's matrix, scaled
     type(weights_type), intent(in), optional :: weight_rates !! the derivative is added, with these
-    type(tMat) :: part(2)
+    type(tMat) :: part
     complex(wp), allocatable :: block(:, :)
     complex(wp) :: mass
     PetscErrorCode :: ierr
-    integer :: i
+    integer :: i, k
 
     if (.not. inertia%present) return
     mass = weights%mass
@@ -54,28 +54,27 @@ contains
     PetscCallA(MatAXPY(real_part, real(mass, wp), inertia%mass, SAME_NONZERO_PATTERN, ierr))
     PetscCallA(MatAXPY(imaginary_part, aimag(mass), inertia%mass, SAME_NONZERO_PATTERN, ierr))
     if (.not. inertia%has_modes .or. inertia%skips_modes) return
-    do i = 1, 2
-      PetscCallA(MatDuplicate(inertia%mass, MAT_DO_NOT_COPY_VALUES, part(i), ierr))
-      PetscCallA(MatSetOption(part(i), MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE, ierr)) ! round-off, as the mass has
-    end do
-    do i = 1, size(inertia%inner)
-      if (present(weight_rates)) then
-        block = inner_block_rate(inertia%inner(i), rate, weights%springs, weight_rates%springs)
+    do k = 1, 2 ! one after the other: each is as large as the mass
+      PetscCallA(MatDuplicate(inertia%mass, MAT_DO_NOT_COPY_VALUES, part, ierr))
+      PetscCallA(MatSetOption(part, MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE, ierr)) ! round-off, as the mass has
+      do i = 1, size(inertia%inner)
+        if (present(weight_rates)) then
+          block = inner_block_rate(inertia%inner(i), rate, weights%springs, weight_rates%springs)
+        else
+          block = inner_block(inertia%inner(i), rate, weights%springs)
+        end if
+        if (k == 1) call add_to_pieces(inertia%inner(i), real(block, wp), part)
+        if (k == 2) call add_to_pieces(inertia%inner(i), aimag(block), part)
+      end do
+      PetscCallA(MatAssemblyBegin(part, MAT_FINAL_ASSEMBLY, ierr))
+      PetscCallA(MatAssemblyEnd(part, MAT_FINAL_ASSEMBLY, ierr))
+      PetscCallA(MatDiagonalScale(part, inertia%left, inertia%right, ierr))
+      if (k == 1) then
+        PetscCallA(MatAXPY(real_part, 1.0_wp, part, SAME_NONZERO_PATTERN, ierr))
       else
-        block = inner_block(inertia%inner(i), rate, weights%springs)
+        PetscCallA(MatAXPY(imaginary_part, 1.0_wp, part, SAME_NONZERO_PATTERN, ierr))
       end if
-      call add_to_pieces(inertia%inner(i), real(block, wp), part(1))
-      call add_to_pieces(inertia%inner(i), aimag(block), part(2))
-    end do
-    do i = 1, 2
-      PetscCallA(MatAssemblyBegin(part(i), MAT_FINAL_ASSEMBLY, ierr))
-      PetscCallA(MatAssemblyEnd(part(i), MAT_FINAL_ASSEMBLY, ierr))
-      PetscCallA(MatDiagonalScale(part(i), inertia%left, inertia%right, ierr))
-    end do
-    PetscCallA(MatAXPY(real_part, 1.0_wp, part(1), SAME_NONZERO_PATTERN, ierr))
-    PetscCallA(MatAXPY(imaginary_part, 1.0_wp, part(2), SAME_NONZERO_PATTERN, ierr))
-    do i = 1, 2
-      PetscCallA(MatDestroy(part(i), ierr))
+      PetscCallA(MatDestroy(part, ierr))
     end do
   end subroutine add_inertia
 

@@ -18,7 +18,7 @@ module gfb_vibration_equations
   use gfb_vibration_law, only: by_rate, vibration_type, weights_type, weights_at, weight_rates_at, is_linear
   implicit none (type)
   private
-  public :: combine, combine_rate, add_part, create_sums, rate_at_rest, has_linear_parts, has_crowds, destroy_equations
+  public :: combine, combine_rate, add_part, release_sums, rate_at_rest, has_linear_parts, has_crowds, destroy_equations
 
   !> A part of the equations: a matrix, scaled as the bearing's, which \( \lambda \) weights by a law.
   type, public :: vibration_part_type
@@ -34,18 +34,20 @@ module gfb_vibration_equations
     type(vibration_part_type), allocatable :: part(:) !! beside it and the mass
     type(foil_inertia_type) :: inertia !! of the foil, nothing by default
     type(tMat) :: real_part, imaginary_part !! of the matrix that was combined last
+    logical, private :: has_sums = .false. !! there are these
   end type vibration_equations_type
 
 contains
 
   !> Real and imaginary part of the matrix of motions \( e^{\lambda t} \).
   subroutine combine(equations, rate)
-    type(vibration_equations_type), intent(in) :: equations !! complete ones
+    type(vibration_equations_type), intent(inout) :: equations !! complete ones
     complex(wp), intent(in) :: rate !! lambda [1/s]
     type(weights_type) :: weights
     PetscErrorCode :: ierr
 
     weights = weights_at(equations%vibration, rate)
+    if (.not. equations%has_sums) call create_sums(equations)
     PetscCallA(MatCopy(equations%steady, equations%real_part, SAME_NONZERO_PATTERN, ierr))
     PetscCallA(MatZeroEntries(equations%imaginary_part, ierr))
     call add_inertia(equations%inertia, rate, weights, equations%real_part, equations%imaginary_part)
@@ -54,7 +56,7 @@ contains
 
   !> The derivative of that matrix by \( \lambda \), in its place.
   subroutine combine_rate(equations, rate, without_mass)
-    type(vibration_equations_type), intent(in) :: equations !! complete ones
+    type(vibration_equations_type), intent(in) :: equations !! that were combined
     complex(wp), intent(in) :: rate !! lambda [1/s]
     logical, intent(in), optional :: without_mass !! the foil's share is left out; default: it is not
     type(weights_type) :: rates
@@ -103,14 +105,27 @@ contains
     equations%part = [equations%part, part]
   end subroutine add_part
 
-  !> Room for the sum, when all parts are there.
+  !> Room for the sum.
   subroutine create_sums(equations)
     type(vibration_equations_type), intent(inout) :: equations !! get it
     PetscErrorCode :: ierr
 
+    equations%has_sums = .true.
+
     PetscCallA(MatDuplicate(equations%steady, MAT_DO_NOT_COPY_VALUES, equations%real_part, ierr))
     PetscCallA(MatDuplicate(equations%steady, MAT_DO_NOT_COPY_VALUES, equations%imaginary_part, ierr))
   end subroutine create_sums
+
+  !> Frees the sum, until it is combined again.
+  subroutine release_sums(equations)
+    type(vibration_equations_type), intent(inout) :: equations !! with it or without
+    PetscErrorCode :: ierr
+
+    if (.not. equations%has_sums) return
+    PetscCallA(MatDestroy(equations%real_part, ierr))
+    PetscCallA(MatDestroy(equations%imaginary_part, ierr))
+    equations%has_sums = .false.
+  end subroutine release_sums
 
   !> Whether all parts are linear in \( \lambda \).
   pure logical function has_linear_parts(equations) result(has)
@@ -151,8 +166,7 @@ contains
       PetscCallA(MatDestroy(equations%part(k)%matrix, ierr))
     end do
     deallocate (equations%part)
-    PetscCallA(MatDestroy(equations%real_part, ierr))
-    PetscCallA(MatDestroy(equations%imaginary_part, ierr))
+    call release_sums(equations)
     call destroy_inertia(equations%inertia)
   end subroutine destroy_equations
 end module gfb_vibration_equations

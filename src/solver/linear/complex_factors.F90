@@ -22,6 +22,7 @@ module gfb_complex_factors
   integer(c_int), parameter :: room_control = 14 !! of ICNTL: room for pivoting [%]
   integer(c_int), parameter :: transposition_control = 9 !! of ICNTL: other than 1 solves with the transposed matrix
   integer, parameter :: no_memory = -13 !! as MUMPS says it
+  integer, parameter :: workspace_too_small = -9, room_too_small = -11 !! MUMPS' own, and one that it was given
   integer, parameter :: controls = 60 !! of MUMPS, that options may set
   integer, parameter :: first_room = 60 !! [%]
 
@@ -29,7 +30,8 @@ module gfb_complex_factors
   type, extends(complex_solver_type), public :: complex_factors_type
     private
     type(c_ptr) :: mumps = c_null_ptr
-    logical :: analysed = .false.
+    logical :: analysed = .false., factored = .false.
+    complex(wp) :: logarithm = 0.0_wp !! of the determinant, up to multiples of 2 pi i
     integer :: room = first_room !! for pivoting [%]
     integer, allocatable :: entries(:), before(:) !! of the vector, each rank's, and those of the ranks before it
     logical, allocatable :: kept(:) !! unknowns of this rank that the equations have
@@ -38,9 +40,11 @@ module gfb_complex_factors
     integer :: filled = 0           !! entries of this rank
     integer(c_int), pointer :: row(:) => null(), column(:) => null() !! of this rank's entries, from 1, row by row
     complex(c_double_complex), pointer :: value(:) => null()
+    complex(c_double_complex), pointer :: work(:) => null() !! room for factors and fronts
   contains
     procedure :: prepare => factor_complex
     procedure :: solve => solve_complex
+    procedure :: release => release_factors
     procedure, nopass :: failure => factors_failure
     procedure :: destroy => destroy_complex_factors
     procedure, nopass :: has_determinant => factors_have_one
@@ -48,13 +52,18 @@ module gfb_complex_factors
   end type complex_factors_type
 
   interface
-    function gfb_mumps_create(communicator, order, entries, row, column, value) result(one) bind(c)
+    function gfb_mumps_create(communicator, order, entries, row, column) result(one) bind(c)
       import :: c_int, c_int64_t, c_ptr
       integer(c_int), value :: communicator, order
       integer(c_int64_t), value :: entries
-      type(c_ptr), value :: row, column, value
+      type(c_ptr), value :: row, column
       type(c_ptr) :: one
     end function gfb_mumps_create
+
+    subroutine gfb_mumps_take(one, value) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: one, value
+    end subroutine gfb_mumps_take
 
     subroutine gfb_mumps_control(one, place, value) bind(c)
       import :: c_int, c_ptr
@@ -68,6 +77,18 @@ module gfb_complex_factors
       integer(c_int), value :: job, sides
       integer(c_int) :: status
     end function gfb_mumps_run
+
+    function gfb_mumps_entries(one) result(entries) bind(c)
+      import :: c_int64_t, c_ptr
+      type(c_ptr), value :: one
+      integer(c_int64_t) :: entries
+    end function gfb_mumps_entries
+
+    subroutine gfb_mumps_use(one, room, entries) bind(c)
+      import :: c_int64_t, c_ptr
+      type(c_ptr), value :: one, room
+      integer(c_int64_t), value :: entries
+    end subroutine gfb_mumps_use
 
     subroutine gfb_mumps_determinant(one, part, exponent) bind(c)
       import :: c_int, c_double, c_ptr
@@ -108,8 +129,9 @@ contains
     end do
     allocate (factors%row(max(1, entries)), factors%column(max(1, entries)), factors%value(max(1, entries)))
     call visit_entries(factors, pattern)
+    deallocate (factors%value)
     factors%mumps = gfb_mumps_create(int(PETSC_COMM_WORLD, c_int), int(all, c_int), int(factors%filled, c_int64_t), &
-                                     c_loc(factors%row), c_loc(factors%column), c_loc(factors%value))
+                                     c_loc(factors%row), c_loc(factors%column))
     if (c_associated(factors%mumps)) call set_controls(factors%mumps)
   end subroutine create_complex_factors
 
@@ -192,6 +214,9 @@ contains
 
     status = no_memory
     if (.not. c_associated(self%mumps)) return
+    self%factored = .false.
+    if (.not. associated(self%value)) allocate (self%value(size(self%row)))
+    call gfb_mumps_take(self%mumps, c_loc(self%value))
     call visit_entries(self, real_part, imaginary_part)
     if (.not. self%analysed) then
       status = gfb_mumps_run(self%mumps, analyse, 0_c_int, c_null_ptr)
@@ -199,14 +224,47 @@ contains
     end if
     if (.not. self%analysed) return
     do
-      status = gfb_mumps_run(self%mumps, factor, 0_c_int, c_null_ptr)
+      call make_room(self, status)
+      if (status >= 0) status = gfb_mumps_run(self%mumps, factor, 0_c_int, c_null_ptr)
+      if (status == room_too_small) status = workspace_too_small
       room = larger_workspace(status, self%room)
-      if (room == 0) return
+      if (room == 0) exit
       call gfb_mumps_control(self%mumps, room_control, int(room, c_int))
       self%room = room
       enlargements = enlargements + 1
     end do
+    self%factored = status >= 0
+    if (self%factored) self%logarithm = logarithm_of(self)
   end subroutine factor_complex
+
+  !> Room for factors and fronts, which is ours: MUMPS' own stays as long as its analysis.
+  subroutine make_room(factors, status)
+    type(complex_factors_type), intent(inout) :: factors !! analysed with the first room for pivoting
+    integer, intent(out) :: status !! 0, on all ranks, or MUMPS' word for no memory
+    integer(c_int64_t) :: entries
+    real(wp) :: failed(1)
+    integer :: allocated_status
+
+    entries = gfb_mumps_entries(factors%mumps)
+    if (factors%room > first_room) entries = int(real(entries, wp)*real(100 + factors%room, wp)/real(100 + first_room, wp), c_int64_t)
+    if (associated(factors%work)) then
+      if (size(factors%work, kind=c_int64_t) < entries) deallocate (factors%work)
+    end if
+    allocated_status = 0
+    if (.not. associated(factors%work)) allocate (factors%work(max(1_c_int64_t, entries)), stat=allocated_status)
+    failed = largest_over_ranks([merge(1.0_wp, 0.0_wp, allocated_status /= 0)])
+    status = merge(no_memory, 0, failed(1) > 0.0_wp)
+    if (status == 0) call gfb_mumps_use(factors%mumps, c_loc(factors%work), size(factors%work, kind=c_int64_t))
+  end subroutine make_room
+
+  !> Frees matrix and factors; the analysis stays.
+  subroutine release_factors(self)
+    class(complex_factors_type), intent(inout) :: self !! created before
+
+    if (associated(self%work)) deallocate (self%work)
+    if (associated(self%value)) deallocate (self%value)
+    self%factored = .false.
+  end subroutine release_factors
 
   !> Solves with the factors there are; improved once where the equations are not met to round-off.
   subroutine solve_complex(self, re, im, solved, transposed)
@@ -220,6 +278,7 @@ contains
     integer :: pass, k
     logical :: turned
 
+    if (.not. self%factored) error stop 'a solution is asked of factors that there are not'
     turned = .false.
     if (present(transposed)) turned = transposed
     call gfb_mumps_control(self%mumps, transposition_control, merge(0_c_int, 1_c_int, turned))
@@ -256,6 +315,13 @@ contains
   function log_of_factors(self) result(logarithm)
     class(complex_factors_type), intent(in) :: self !! made before
     complex(wp) :: logarithm
+    logarithm = self%logarithm
+  end function log_of_factors
+
+  !> The same, as MUMPS has it.
+  function logarithm_of(factors) result(logarithm)
+    type(complex_factors_type), intent(in) :: factors
+    complex(wp) :: logarithm
     real(c_double) :: part(2)
     real(wp) :: both(2)
     integer(c_int) :: exponent
@@ -263,13 +329,13 @@ contains
 
     both = 0.0_wp
     if (this_rank() == 0) then
-      call gfb_mumps_determinant(self%mumps, part, exponent)
+      call gfb_mumps_determinant(factors%mumps, part, exponent)
       logarithm = log(cmplx(part(1), part(2), wp)) + real(exponent, wp)*log(2.0_wp)
       both = [real(logarithm, wp), aimag(logarithm)]
     end if
     call MPI_Bcast(both, 2, MPI_DOUBLE_PRECISION, 0, PETSC_COMM_WORLD, ierr)
     logarithm = cmplx(both(1), both(2), wp)
-  end function log_of_factors
+  end function logarithm_of
 
   !> Solutions, whole on every rank.
   subroutine solve_once(factors, right, answer, solved)
@@ -366,6 +432,7 @@ contains
     class(complex_factors_type), intent(inout) :: self !! created before
 
     if (c_associated(self%mumps)) call gfb_mumps_destroy(self%mumps)
-    deallocate (self%row, self%column, self%value)
+    call self%release()
+    deallocate (self%row, self%column)
   end subroutine destroy_complex_factors
 end module gfb_complex_factors

@@ -44,6 +44,7 @@ module gfb_complex_iterations
   contains
     procedure :: prepare => prepare_iterations
     procedure :: solve => solve_by_iterations
+    procedure :: release => drop_matrix
     procedure, nopass :: failure => iterations_failure
     procedure :: destroy => destroy_iterations
   end type complex_iterations_type
@@ -271,7 +272,7 @@ contains
 
   !> Frees matrix and levels.
   subroutine drop_matrix(self)
-    class(complex_iterations_type), intent(inout) :: self
+    class(complex_iterations_type), intent(inout) :: self !! created before
     PetscErrorCode :: ierr
 
     if (.not. self%prepared) return

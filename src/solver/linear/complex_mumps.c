@@ -7,7 +7,7 @@ _Static_assert(sizeof(MUMPS_INT) == 4, "MUMPS was built for integers of 8 bytes"
 
 /* An instance for a matrix of which this rank gives some entries, numbered from 1; the arrays stay the caller's. Null
    where there is no memory. Whatever has no choice here is set by gfb_mumps_control. */
-ZMUMPS_STRUC_C *gfb_mumps_create(int communicator, int order, int64_t entries, int *row, int *column, ZMUMPS_COMPLEX *value)
+ZMUMPS_STRUC_C *gfb_mumps_create(int communicator, int order, int64_t entries, int *row, int *column)
 {
   const int       silent = 3, distributed = 18;
   ZMUMPS_STRUC_C *one = calloc(1, sizeof *one);
@@ -24,8 +24,13 @@ ZMUMPS_STRUC_C *gfb_mumps_create(int communicator, int order, int64_t entries, i
   one->nnz_loc = entries;
   one->irn_loc = row;
   one->jcn_loc = column;
-  one->a_loc = value;
   return one;
+}
+
+/* Where the matrix' entries are, in the order of rows and columns. */
+void gfb_mumps_take(ZMUMPS_STRUC_C *one, ZMUMPS_COMPLEX *value)
+{
+  one->a_loc = value;
 }
 
 /* ICNTL(place), as the manual of MUMPS numbers it. */
@@ -44,6 +49,24 @@ int gfb_mumps_run(ZMUMPS_STRUC_C *one, int job, int sides, ZMUMPS_COMPLEX *right
   one->lrhs = one->n;
   zmumps_c(one);
   return one->infog[0];
+}
+
+/* Entries that this rank's factors and fronts take, as the analysis has estimated them with ICNTL(14) [1]. */
+int64_t gfb_mumps_entries(const ZMUMPS_STRUC_C *one)
+{
+  const int     entries = one->info[7];
+  const int64_t million = 1000000;
+
+  return entries < 0 ? -million * entries : entries;
+}
+
+/* Where factors and fronts go; the caller keeps it as long as it solves. MUMPS counts many entries in millions. */
+void gfb_mumps_use(ZMUMPS_STRUC_C *one, ZMUMPS_COMPLEX *room, int64_t entries)
+{
+  const int64_t million = 1000000;
+
+  one->wk_user = room;
+  one->lwk_user = entries <= INT32_MAX ? (int)entries : -(int)(entries / million);
 }
 
 /* Determinant of the matrix that was factored last, (part[0] + i part[1]) 2^exponent, on the first rank. */

@@ -20,6 +20,7 @@ module gfb_complex_solver
     procedure(solve), deferred :: solve
     procedure(failure), deferred, nopass :: failure
     procedure(destroy), deferred :: destroy
+    procedure(release), deferred :: release
     procedure, nopass :: has_determinant => no_determinant
     procedure :: log_determinant => logarithm_of_nothing
   end type complex_solver_type
@@ -42,6 +43,12 @@ module gfb_complex_solver
       logical, intent(out) :: solved !! all solutions meet the equations
       logical, intent(in), optional :: transposed !! those of the transposed matrix, not of its conjugate
     end subroutine solve
+
+    !> Frees what is made anew of the next matrix; the determinant stays known.
+    subroutine release(self)
+      import :: complex_solver_type
+      class(complex_solver_type), intent(inout) :: self !! created before; solves nothing until it is prepared again
+    end subroutine release
 
     !> Why nothing was solved, in words.
     function failure(status) result(words)

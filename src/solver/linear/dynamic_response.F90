@@ -35,13 +35,13 @@ module gfb_dynamic_response
   use gfb_film_rates, only: squeeze_column
   use gfb_bearing_motion, only: add_vibrations
   use gfb_vibration_law, only: vibration_type
-  use gfb_vibration_equations, only: vibration_equations_type, combine, combine_rate, create_sums, destroy_equations
+  use gfb_vibration_equations, only: vibration_equations_type, combine, combine_rate, release_sums, destroy_equations
   use gfb_complex_solver, only: complex_solver_type, keep_entries
   use gfb_complex_factors, only: complex_factors_type, create_complex_factors
   use gfb_complex_iterations, only: complex_iterations_type, create_complex_iterations
   implicit none (type)
   private
-  public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, take_over_counts, response_failure, &
+  public :: linearise_steady, measure_asperities, create_response, find_coefficients, find_sample, release_parts, take_over_counts, response_failure, &
             prepare_part, solve_part, forces_of, force_gradient, destroy_response
 
   !> Of a journal's motions.
@@ -155,6 +155,7 @@ contains
       call linearise_exactly(response%opposite_bearing, .true.)
       PetscCallA(MatDuplicate(response%opposite_bearing%jacobian, MAT_COPY_VALUES, response%opposite%equations%steady, ierr))
       call complete_response(response%opposite_bearing, vibration, response%opposite)
+      call response%opposite_bearing%drop_matrices()
     end if
     call complete_response(bearing, vibration, response)
   end subroutine create_response
@@ -229,7 +230,6 @@ contains
 
     response%equations%vibration = vibration
     call add_vibrations(bearing, response%equations)
-    call create_sums(response%equations)
     PetscCallA(VecDuplicate(bearing%state, response%one, ierr))
     PetscCallA(VecDuplicate(bearing%state, response%other, ierr))
     response%motion = bearing%mesh%surface%motions()
@@ -363,6 +363,7 @@ contains
     found = .false.
     wanted = size(response%motion)
     if (present(only_translations)) wanted = merge(size(translations), wanted, only_translations)
+    if (allocated(response%opposite)) call release_parts(response%opposite)
     call combine(response%equations, rate)
     do i = 1, size(response%part)
       if (response%part(i)%coordinate(1) > wanted) cycle
@@ -377,12 +378,24 @@ contains
       if (.not. found) error stop 'tilts on half the width are asked of a response without the bearing that they move'
       return
     end if
+    call release_parts(response)
     associate (opposite => response%opposite)
       call find_coefficients(response%opposite_bearing, opposite, rate, other, found)
       coefficient(tilts, tilts) = other(tilts, tilts)
     end associate
     call take_over_counts(response)
   end subroutine find_coefficients
+
+  !> Frees the matrix and the factors of all parts, so that those of the opposite motions do not stand beside them.
+  subroutine release_parts(response)
+    type(dynamic_response_type), intent(inout) :: response !! its determinants stay known
+    integer :: i
+
+    call release_sums(response%equations)
+    do i = 1, size(response%part)
+      call response%part(i)%solver%release()
+    end do
+  end subroutine release_parts
 
   !> What the opposite motions have cost counts as the response's own.
   subroutine take_over_counts(response)
@@ -410,6 +423,7 @@ contains
 
     z = 0.0_wp
     dz = 0.0_wp
+    if (allocated(response%opposite)) call release_parts(response%opposite)
     call combine(response%equations, rate)
     call prepare_part(response, number, found)
     if (.not. found) return

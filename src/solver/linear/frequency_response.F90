@@ -18,7 +18,7 @@ module gfb_frequency_response
   use gfb_run_log, only: run_log_type
   use gfb_rational_response, only: rational_response_type
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_dynamic_response, only: dynamic_response_type, find_sample, take_over_counts
+  use gfb_dynamic_response, only: dynamic_response_type, find_sample, release_parts, take_over_counts
   implicit none (type, external)
   private
   public :: cover_frequencies, cover_part, add_sample, coefficients_at, coefficients_beside, join_frequencies, places_to_look, miss_of_line
@@ -64,6 +64,7 @@ contains
       if (.not. found) return
     end do
     if (.not. allocated(response%opposite)) return
+    call release_parts(response)
     if (.not. allocated(model%opposite)) allocate (model%opposite)
     call cover_frequencies(response%opposite_bearing, response%opposite, frequency, log, model%opposite, found, allowed)
     model%failed = model%opposite%failed

@@ -15,7 +15,7 @@ module gfb_dynamics
   use gfb_bearing_system, only: bearing_system_type
   use gfb_heat_switch, only: held_bearing_type, hold_heat
   use gfb_bearing_builder, only: build_opposite
-  use gfb_newton, only: newton_type, show_enlargements
+  use gfb_newton, only: newton_type, forget_factors, show_enlargements
   use gfb_dynamic_response, only: dynamic_response_type, create_response, response_failure, destroy_response
   use gfb_frequency_response, only: frequency_response_type, cover_frequencies, coefficients_at, joined_type, join_frequencies, &
                                     most_joined
@@ -66,6 +66,8 @@ contains
     allocate (found(0))
     if (.not. scene%sweep%present) call log%heading('small vibrations')
     if (first) call describe(scene, log)
+    ! What is to come has no use for the answer's factors.
+    if (.not. (scene%sweep%present .or. scene%sensitivity%present)) call forget_factors(newton)
     call start_response(scene, log, held%bearing, response, record%problem)
     if (allocated(record%problem)) return
     call describe_mass(scene, log, response%equations%inertia, first)

@@ -61,7 +61,7 @@ module gfb_memory_laws
   ! Studies over their answer: complex factors, on half the width also those of motions against the
   ! mirror; by iterations peaks of 364 and 754 MB at 7,465 and 24,650 unknowns on half the width.
   real(wp), parameter :: motion_share = 2.0_wp !! over time, and of orbits [1]
-  real(wp), parameter :: vibration_share(2) = [2.3_wp, 3.5_wp] !! whole, half the width [1]
+  real(wp), parameter :: vibration_share(2) = [2.3_wp, 3.1_wp] !! whole, half the width [1]
   real(wp), parameter :: iterative_vibration_share(2) = [7.5_wp, 11.5_wp] !! the same [1]
 
 contains
