@@ -193,11 +193,14 @@ contains
     character(len=*), intent(in) :: words
     real(wp), intent(in), optional :: share
     real(wp) :: now
+    logical :: same
 
+    same = words == way%words
     way%words = words
     now = 0.0_wp
     if (present(share)) now = share
-    if (now > 0.0_wp .and. abs(now - way%share) <= 0.0_wp) return ! tried once more from there
+    ! Tried once more from there.
+    if ((now > 0.0_wp .or. same) .and. abs(now - way%share) <= 0.0_wp) return
     way%share_before = merge(way%share, 0.0_wp, now > way%share)
     way%reached_before = way%reached
     way%share = now
@@ -257,7 +260,7 @@ contains
 
   !> Where on a way, and about how long the rest takes if it goes on as slowly as on the whole, or
   !> on its last piece where that was slower: steps that are cut count. Where it has not come on for
-  !> longer than that, how long it has been there.
+  !> longer than that, or no step shows yet how long the rest takes, how long it has been there.
   function place_on(way, now, rate, ending) result(words)
     type(way_type), intent(in) :: way
     integer(long), intent(in) :: now, rate !! count of the clock, and counts a second
@@ -267,12 +270,15 @@ contains
     real(wp) :: left, there
 
     words = way%words
-    if (words == '' .or. way%share < least_share) return
-    associate (piece => max(way%share - way%share_before, tiny(1.0_wp)))
-      left = max(real(way%reached - way%begun, wp)/way%share, &
-                 real(way%reached - way%reached_before, wp)/piece)
-    end associate
-    left = left*(1.0_wp - way%share)/real(rate, wp)
+    if (words == '') return
+    left = 0.0_wp
+    if (.not. way%share < least_share) then
+      associate (piece => max(way%share - way%share_before, tiny(1.0_wp)))
+        left = max(real(way%reached - way%begun, wp)/way%share, &
+                   real(way%reached - way%reached_before, wp)/piece)
+      end associate
+      left = left*(1.0_wp - way%share)/real(rate, wp)
+    end if
     there = real(now - way%reached, wp)/real(rate, wp)
     if (left - there >= 1.0_wp) then
       write (seconds, '(i0)') nint(left - there, long)

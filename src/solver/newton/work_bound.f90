@@ -84,7 +84,7 @@ contains
     words = ''
     if (.not. associated(bound)) return
     if (bound%share() < 0.01_wp) return
-    words = text(floor(100.0_wp*bound%share()))//' % of the search''s limit used, '
+    words = text(floor(100.0_wp*bound%share()))//' % of the work allowed, '
   end function share_words
 
   !> Whether a search has spent what it may.

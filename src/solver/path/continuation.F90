@@ -154,9 +154,13 @@ contains
     logical, intent(out) :: converged !! there is an answer
     integer, intent(out) :: iterations
     type(newton_report_type) :: solved
+    character(len=:), allocatable :: place
 
     if (self%tells) then
-      call self%newton%log%is_at(text(100.0_wp*self%at, 2)//' % of the way'//self%course, self%at)
+      place = text(100.0_wp*self%at, 2)//' % of the way'//self%course
+      ! The first step may be all of a way, and take as long: it says how far it leads.
+      if (.not. self%at > 0.0_wp) place = place//', step to '//text(100.0_wp*trial, 2)//' %'
+      call self%newton%log%is_at(place, self%at)
     else
       call self%newton%log%is_at('')
     end if
