@@ -180,6 +180,7 @@ contains
       answer%reason = 'nothing holds the shaft: one journal alone needs journal_tilts'
       return
     end if
+    call log%is_on('machine, all bearings together')
     call gather(machine, bearing, motion, answer)
     call set_sizes(machine, bearing, size_of, of_force)
     call move_all(machine, bearing, answer%unknown, answer, regular)

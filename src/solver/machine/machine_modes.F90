@@ -70,7 +70,7 @@ contains
       call find_starts(machine, linear, highest, start, reason)
       do i = 1, size(start)
         if (.not. is_wanted(start(i)%rate, highest)) cycle
-        call log%is_on('machine, mode '//text(i)//' of '//text(size(start)))
+        call log%is_on('machine, possible mode '//text(i)//' of '//text(size(start)))
         call log%detail('machine: mode may be near '//text(aimag(start(i)%rate), 6)//' rad/s, growth '//text(real(start(i)%rate, wp), 5))
         call take_mode(machine, linear, start(i), mode)
         if (start(i)%sharp .or. abs(start(i)%rate - centre) > limits(1)) cycle

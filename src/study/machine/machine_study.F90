@@ -189,6 +189,7 @@ contains
     if (allocated(error)) return
     do i = 1, merge(0, points, context%restart%continues)
       if (self%reason%is_given()) exit
+      if (points > 1) call context%log%is_within('point '//text(i)//' of '//text(points), real(i - 1, wp)/real(points, wp))
       self%machine%speed = angular_speed(scene%machine%speed_rpm) ! it may have begun at a higher one
       if (scene%sweep%present) self%machine%speed = angular_speed(scene%sweep%values(i))
       call find_answer(self, scene, context%log, self%motions(i))
@@ -196,6 +197,7 @@ contains
       if (scene%sweep%present) call record_point(self, scene, i, context%log)
       if (i > 1) call look_for_onset(self, scene, i, context%log)
     end do
+    call context%log%is_within('')
     if (.not. self%reason%is_given()) call answer_unbalance(self, scene, context%log)
     if ((scene%transient%present .or. scene%periodic%present) .and. .not. self%reason%is_given()) then
       do i = 1, merge(0, size(self%part), context%restart%continues)
@@ -455,6 +457,7 @@ contains
     if (.not. self%onset > 0.0_wp) call log%line('onset: between '//text(min(bracket%low, bracket%high))//' and '// &
                                                  text(max(bracket%low, bracket%high))//' rpm')
     self%reason = reason_type()
+    call log%is_within('back at point '//text(point))
     self%machine%speed = angular_speed(scene%sweep%values(point))
     call find_answer(self, scene, log, motions)
   end subroutine look_for_onset
