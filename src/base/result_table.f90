@@ -499,9 +499,10 @@ module gfb_result_table
       'with a loss factor at which the critical mass passes the rotor''s, the first along the '// &
       'sweep; absent where it does not'), &
     result_type('load_capacity', 'N', number, bearing, &
-      'load at which the smallest film has come down to the one asked for', &
+      'load at which film or heat is at the limit asked for', &
       'with `analysis = ''load_capacity''`: load, in the direction of `load`, at which the '// &
-      'smallest film has come down to `smallest_gap`', asked=.true., nodal=.true.), &
+      'smallest film has come down to `smallest_gap`, or film or top foil are at '// &
+      '`highest_temperature`', asked=.true., nodal=.true.), &
     result_type('load_capacity_coefficient', 'lbf/(in^3 krpm)', number, bearing, &
       'that load over L D . D . N: length, diameter, speed', &
       'that load over L D . D . N, with length and diameter in inches, N in 1000 rpm'), &
@@ -513,9 +514,10 @@ module gfb_result_table
       'with `analysis = ''lift_off''`: speed at which the asperities carry `contact_part` of '// &
       'the load', asked=.true.), &
     result_type('misalignment_allowance', 'rad', number, bearing, &
-      'tilt at which the smallest film has come down to the one asked for', &
+      'tilt at which film or heat is at the limit asked for', &
       'with `analysis = ''misalignment_allowance''`: tilt about `tilt_axis` at which the '// &
-      'smallest film has come down to `smallest_gap`', asked=.true., nodal=.true.), &
+      'smallest film has come down to `smallest_gap`, or film or top foil are at '// &
+      '`highest_temperature`', asked=.true., nodal=.true.), &
     result_type('limit_reached', '1', truth, bearing, &
       'whether the limit asked for is reached; 0: the branch of answers ends before', &
       'of the last three analyses: 1 where film or asperities are at the limit asked for, 0 '// &

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Heat of thrust bearings: the isothermal film, a thin film between walls, energy that closes, one pad against all, ranks, gas that
-cools the bumps, plates and shells, vibrations, derivatives against differences."""
+cools the bumps, plates and shells, vibrations, derivatives against differences, a load capacity that heat ends."""
 
 import math
 import tempfile
@@ -105,6 +105,31 @@ def check_derivatives(checks, folder):
             checks.below(f"{quantity} by {name} against differences", derived[f"d_{quantity}_d_thermal_{name}"]/rate - 1.0, 1.0e-4)
 
 
+def hottest(found):
+    """Temperature of the hottest place of film and top foil."""
+    return max(found["maximum_film_temperature"], found["maximum_top_foil_temperature"])
+
+
+def check_capacity(checks, folder):
+    """A load capacity ends at the first of film and heat, from a lighter load and from one that is too hot; a plain equilibrium under it
+    is as hot. A temperature that is not reached changes nothing."""
+    film = solve(folder, "film", heated(LOAD, "load_capacity", capacity={"smallest_gap": 4.0e-6}))
+    for title, above in (("not reached", 10.0), ("reached", -10.0)):
+        highest = hottest(film) + above
+        limits = {"smallest_gap": 4.0e-6, "highest_temperature": highest}
+        found = solve(folder, "capacity", heated(LOAD, "load_capacity", capacity=limits))
+        checks.that(f"{title}: the limit is found", found["limit_reached"] == "true")
+        if above > 0.0:
+            checks.below("a temperature that is not reached", found["load_capacity"]/film["load_capacity"] - 1.0, 1.0e-9)
+            continue
+        checks.that("heat ends it before the film does", LOAD["axial_load"] < found["load_capacity"] < 0.99*film["load_capacity"]
+                    and found["minimum_gap"] > 1.01*film["minimum_gap"] and found["temperature_margin"] == 1.0)
+        plain = solve(folder, "hot", heated({"axial_load": found["load_capacity"]}))
+        checks.below("a plain equilibrium under that load is as hot", (hottest(plain) - highest)/(highest - AMBIENT), 1.0e-6)
+        heavy = solve(folder, "heavy", heated({"axial_load": 0.5*(found["load_capacity"] + film["load_capacity"])}, "load_capacity", capacity=limits))
+        checks.below("from a load that is too hot", heavy["load_capacity"]/found["load_capacity"] - 1.0, 1.0e-8)
+
+
 def main():
     checks = Checks()
     with tempfile.TemporaryDirectory() as folder:
@@ -113,6 +138,7 @@ def main():
         check_foils(checks, folder)
         check_motion(checks, folder)
         check_derivatives(checks, folder)
+        check_capacity(checks, folder)
     checks.close()
 
 

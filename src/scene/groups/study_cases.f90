@@ -347,10 +347,12 @@ contains
                        '`film_margin` and the verdict say how far the film keeps it', positive, &
                        required=by_gap, &
                        default="required for 'load_capacity' and 'misalignment_allowance'")
-    call keys%idle('the answer is measured against it, and does not follow it')
     call keys%real_key('highest_temperature', capacity%highest_temperature, 'K', 'that film '// &
-                       'and top foil may have: `temperature_margin` and the verdict say how '// &
-                       'far the hottest place of both keeps it', positive, default=no_default)
+                       'and top foil may have: a load capacity or a misalignment allowance '// &
+                       'ends at it, too; of another analysis `temperature_margin` and the '// &
+                       'verdict say how far the hottest place of both keeps it', positive, &
+                       default=no_default)
+    call keys%idle('the answer is measured against it, and does not follow it')
     call keys%real_key('largest_stress', capacity%largest_stress, 'Pa', 'that the foils may '// &
                        'have: `stress_margin` and the verdict say how far the largest von '// &
                        'Mises stress keeps it', positive, default=no_default)

@@ -1,6 +1,5 @@
-!> How far an answer keeps the limits of `&capacity` where none of them ends a search: the smallest
-!> film that is wanted, the highest temperature and the largest stress. Of a sweep its worst point
-!> counts.
+!> How far an answer keeps the limits of `&capacity`: the smallest film that is wanted where it ends
+!> no search, the highest temperature and the largest stress. Of a sweep its worst point counts.
 module gfb_kept_limits
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use gfb_kinds, only: wp
@@ -22,6 +21,7 @@ module gfb_kept_limits
                                                 'maximum_top_foil_stress', &
                                                 'maximum_bump_foil_stress']
   real(wp), parameter :: megapascals = 1.0e-6_wp !! in a pascal
+  real(wp), parameter :: at_limit = 1.0e-6_wp    !! what a search for a limit leaves of a margin [1]
 
   !> The worst value of some results, and where.
   type :: worst_type
@@ -43,17 +43,26 @@ contains
     if (film%known) then
       call add_result(summary, 'film_margin', film%value/scene%capacity%smallest_gap)
     end if
-    associate (ambient => scene%thermal%ambient_temperature, wanted => scene%capacity)
-      ! What is colder than the gas around it is as far from its limit as one likes.
-      if (heat%known .and. heat%value > ambient) then
-        call add_result(summary, 'temperature_margin', &
-                        (wanted%highest_temperature - ambient)/(heat%value - ambient))
-      end if
-      if (stress%known .and. stress%value > 0.0_wp) then
-        call add_result(summary, 'stress_margin', wanted%largest_stress/stress%value)
-      end if
-    end associate
+    ! What is colder than the gas around it is as far from its limit as one likes.
+    if (heat%known .and. heat%value > scene%thermal%ambient_temperature) then
+      call add_result(summary, 'temperature_margin', heat_margin(scene, heat%value))
+    end if
+    if (stress%known .and. stress%value > 0.0_wp) then
+      call add_result(summary, 'stress_margin', scene%capacity%largest_stress/stress%value)
+    end if
   end subroutine add_margins
+
+  !> How far the highest temperature is above the gas around, over how far a temperature is; at the
+  !> limit, where a search has ended there, 1.
+  pure real(wp) function heat_margin(scene, temperature) result(margin)
+    type(scene_type), intent(in) :: scene !! with the limit
+    real(wp), intent(in) :: temperature !! above that of the gas around [K]
+
+    associate (ambient => scene%thermal%ambient_temperature)
+      margin = (scene%capacity%highest_temperature - ambient)/(temperature - ambient)
+    end associate
+    if (abs(margin - 1.0_wp) <= at_limit) margin = 1.0_wp
+  end function heat_margin
 
   !> Warns of each limit that is broken.
   subroutine show_broken_limits(scene, history, summary, log)
@@ -70,7 +79,8 @@ contains
                          place(film)//', is thinner than smallest_gap of &capacity, '// &
                          text(wanted%smallest_gap*micrometres, 4)//' um')
       end if
-      if (heat%known .and. heat%value > wanted%highest_temperature) then
+      if (heat%known .and. heat%value > wanted%highest_temperature .and. &
+          heat_margin(scene, heat%value) < 1.0_wp) then
         call log%warning('the highest temperature of film and top foil, '// &
                          text(heat%value - ice_point, 4)//' C'//place(heat)// &
                          ', is above highest_temperature of &capacity, '// &

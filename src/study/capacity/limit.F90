@@ -1,7 +1,7 @@
-!> The load, speed or tilt at which film or asperities reach a limit: what is asked, and how far an answer is from it.
+!> The load, speed or tilt at which film, heat or asperities reach a limit: what is asked, and how far an answer is from it.
 module gfb_limit
   use gfb_kinds, only: wp
-  use gfb_units, only: rpm, micrometres
+  use gfb_units, only: rpm, micrometres, ice_point
   use gfb_quantity, only: quantity_type
   use gfb_result_names, only: add_result
   use gfb_text, only: text
@@ -28,6 +28,8 @@ module gfb_limit
     integer :: kind = 0               !! `limit_load`, ...
     integer :: axis = 1               !! of the tilt
     real(wp) :: smallest_gap = 0.0_wp !! [m]
+    real(wp) :: highest_temperature = 0.0_wp !! of film and top foil; 0: none is given, or asperities decide [K]
+    real(wp) :: ambient = 0.0_wp      !! temperature of the gas that is drawn in [K]
     real(wp) :: contact_part = 0.0_wp !! of the load [1]
     real(wp) :: direction(translations) = 0.0_wp !! of the load [1]
     real(wp) :: length = 0.0_wp       !! of the bearing [m]
@@ -36,7 +38,7 @@ module gfb_limit
     real(wp) :: area = 0.0_wp         !! of the pads of a thrust bearing; 0: it is a journal's [m2]
   contains
     procedure :: value_at, point_with, reserve, next_value, aimed_value, is_of_film, results, words, never_within, course
-    procedure, private :: coefficient
+    procedure, private :: coefficient, left_by_heat
   end type limit_type
 
 contains
@@ -50,6 +52,8 @@ contains
     limit%kind = scene%capacity%limit
     limit%axis = scene%capacity%tilt_axis
     limit%smallest_gap = scene%capacity%smallest_gap
+    if (limit%is_of_film()) limit%highest_temperature = scene%capacity%highest_temperature
+    limit%ambient = scene%thermal%ambient_temperature
     limit%contact_part = scene%capacity%contact_part
     associate (load => point%load(:translations))
       if (any(abs(load) > 0.0_wp)) limit%direction = load/norm2(load)
@@ -103,7 +107,7 @@ contains
   end function point_with
 
   !> What is left at the bearing's answer; 0 at the limit, negative beyond it: the film over the
-  !> smallest one, less 1; the logarithm of the part allowed over that of the asperities, nearly
+  !> smallest one, less 1, or what heat leaves, where that is less; the logarithm of the part allowed over that of the asperities, nearly
   !> straight over the film: they carry exp(-h/s).
   function reserve(self, bearing) result(left)
     class(limit_type), intent(in) :: self !! the limit
@@ -115,11 +119,25 @@ contains
     answer = bearing_answer(bearing)
     if (self%is_of_film()) then
       left = answer%minimum_gap/self%smallest_gap - 1.0_wp
+      if (self%highest_temperature > 0.0_wp) left = min(left, self%left_by_heat(answer))
     else
       part = contact_part(answer, bearing%point)
       left = log(self%contact_part/max(part, tiny(part)))
     end if
   end function reserve
+
+  !> How far the hottest place of film and top foil is below the highest temperature, over how far that is above the gas around [1].
+  pure real(wp) function left_by_heat(self, answer) result(left)
+    class(limit_type), intent(in) :: self !! the limit, with a highest temperature
+    type(bearing_answer_type), intent(in) :: answer
+    left = (self%highest_temperature - hottest_place(answer))/(self%highest_temperature - self%ambient)
+  end function left_by_heat
+
+  !> Temperature of the hottest place of film and top foil [K].
+  pure real(wp) function hottest_place(answer) result(temperature)
+    type(bearing_answer_type), intent(in) :: answer
+    temperature = max(answer%heat%whole%maximum_film_temperature, answer%heat%whole%maximum_top_foil_temperature)
+  end function hottest_place
 
   !> The value to try next: a larger load or tilt or a lower speed while there is reserve; from
   !> beyond the limit a smaller load, a higher speed, no tilt.
@@ -248,6 +266,10 @@ contains
       end select
     end associate
     sentence = sentence//', smallest film '//text(answer%minimum_gap*micrometres, 4)//' um'
+    if (self%highest_temperature > 0.0_wp) then
+      sentence = sentence//', film and top foil at most '//text(hottest_place(answer) - ice_point, 4)//' C'
+      if (self%left_by_heat(answer) < answer%minimum_gap/self%smallest_gap - 1.0_wp) sentence = sentence//': heat decides'
+    end if
     if (.not. self%is_of_film()) then
       sentence = sentence//', asperities carry '// &
                  text(100.0_wp*contact_part(answer, bearing%point), 4)//' % of the load'
@@ -260,18 +282,22 @@ contains
     !> at the lightest load, the highest speed or without tilt
     type(bearing_system_type), intent(in) :: bearing
     character(len=:), allocatable :: sentence
+    type(bearing_answer_type) :: answer
 
+    sentence = 'the smallest film is thinner than smallest_gap'
+    if (self%highest_temperature > 0.0_wp) then
+      answer = bearing_answer(bearing)
+      if (self%left_by_heat(answer) < 0.0_wp) sentence = 'film and top foil are hotter than highest_temperature'
+    end if
     associate (value => self%value_at(bearing%point))
       select case (self%kind)
       case (limit_load)
-        sentence = 'the smallest film is thinner than smallest_gap at every load tried, '// &
-                   'down to '//text(value, 3)//' N'
+        sentence = sentence//' at every load tried, down to '//text(value, 3)//' N'
       case (limit_speed)
         sentence = 'the asperities carry more than contact_part of the load at every speed '// &
                    'tried, up to '//text(value/rpm, 3)//' rpm'
       case default
-        sentence = 'the smallest film is thinner than smallest_gap without any tilt about '// &
-                   merge('x', 'y', self%axis == 1)
+        sentence = sentence//' without any tilt about '//merge('x', 'y', self%axis == 1)
       end select
     end associate
   end function never_within

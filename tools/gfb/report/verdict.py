@@ -14,7 +14,7 @@ from gfb.report.machine import is_machine, left_open, machine_margins
 from gfb.report.margin import ONSET, Margin, compared
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
-AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where the film is at its limit
+AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where film or heat is at its limit
 FILM, HEAT, STRESS = "film_margin", "temperature_margin", "stress_margin"
 WORST = "at the worst point"  # of a sweep
 
@@ -145,7 +145,7 @@ def temperature(results: Results) -> Iterator[Margin]:
     if factor is not None:
         hottest = ambient + (limit - ambient)/factor
     words, allowed = f"film and top foil at most {hottest - KELVIN:.4g} °C", f"{limit - KELVIN:.4g} °C are allowed"
-    if hottest > ambient:
+    if hottest > ambient and results.case.get("scene%analysis") not in AT_LIMIT:
         yield compared("temperature", words, allowed, (limit - ambient)/(hottest - ambient), where, HEAT)
     else:
         yield Margin("temperature", words, allowed, where=where, result=HEAT)
