@@ -20,9 +20,14 @@ HOT = {"running_clearance": ("clearance [um]", 1.0e6, 0.0), "shaft_temperature":
 KEYS = {"parameter": "bearing%clearance", "values": (20.0e-6, 21.0e-6)}
 
 
-def sweep(folder, name, swept, options=(), status=0, load=(-20.0, 0.0), heat=None):
+PLAY = {"running_play": ("play [um]", 1.0e6, 0.0)}  # instead of the clearance, of pads with a preload
+
+
+def sweep(folder, name, swept, options=(), status=0, load=(-20.0, 0.0), heat=None, pads=None):
     """The answer of a small rigid bearing along a sweep."""
     groups = {} if swept is None else {"sweep": swept}
+    if pads:
+        groups |= {"pads": pads}
     if heat:
         groups |= {"thermal": heat}
     content = case_groups(BEARING, mesh=(48, 8), number=2.0, load=load, groups=groups)
@@ -81,14 +86,18 @@ def check_decimal_commas(checks, folder):
 
 
 def check_heat(checks, folder):
-    """With heat the log's table has the running clearance and temperatures, to the digits of the history."""
-    hot = sweep(folder, "hot", {"parameter": "load", "values": (20.0, 30.0)}, heat=HEAT)
-    head, *rows = re.search(r"^points of the sweep\n-+\n(.*?)\n\n", hot.log, re.M | re.S)[1].splitlines()
-    heads, rows = re.split(r"  +", head.strip()), [line.split() for line in rows]
-    for name, (column, scale, zero) in HOT.items():
-        told = [float(row[heads.index(column)]) for row in rows] if column in heads else []
-        checks.that(f"{column}: at both points", len(told) == 2)
-        checks.that(f"{column}: {name}", all(abs(one/(scale*(number - zero)) - 1.0) < 1.0e-4 for one, number in zip(told, hot.history()[name])))
+    """With heat the log's table has the running clearance, or the play that a preload leaves of it, and temperatures, to the digits of
+    the history."""
+    three = {"count": 3, "arc": 2.0, "preload": 0.5}
+    for pads, columns in ((None, HOT), (three, PLAY | {name: HOT[name] for name in HOT if name != "running_clearance"})):
+        hot = sweep(folder, "hot", {"parameter": "load", "values": (20.0, 30.0)}, heat=HEAT, pads=pads)
+        head, *rows = re.search(r"^points of the sweep\n-+\n(.*?)\n\n", hot.log, re.M | re.S)[1].splitlines()
+        heads, rows = re.split(r"  +", head.strip()), [line.split() for line in rows]
+        checks.that("clearance or play", ("clearance [um]" in heads) == (pads is None))
+        for name, (column, scale, zero) in columns.items():
+            told = [float(row[heads.index(column)]) for row in rows] if column in heads else []
+            checks.that(f"{column}: at both points", len(told) == 2)
+            checks.that(f"{column}: {name}", all(abs(one/(scale*(number - zero)) - 1.0) < 1.0e-4 for one, number in zip(told, hot.history()[name])))
 
 
 def main():

@@ -47,6 +47,7 @@ module gfb_bearing_writing
     real(wp) :: scale         !! table's number over SI number [1]
     character(len=16) :: beside = '' !! the vector's other component: its size shows rounding
     real(wp) :: zero = 0.0_wp !! of the table's scale [SI]
+    character(len=16) :: instead = '' !! result that takes its place where there is one
   end type column_type
 
   type(column_type), parameter :: columns(*) = [ &
@@ -59,7 +60,8 @@ module gfb_bearing_writing
     column_type('eccentricity_y', 'e_y [um]', 1.0e6_wp, 'eccentricity_x'), &
     column_type('attitude_angle', 'attitude [deg]', 1.0_wp), &
     column_type('minimum_gap', 'film [um]', 1.0e6_wp), &
-    column_type('running_clearance', 'clearance [um]', 1.0e6_wp), &
+    column_type('running_clearance', 'clearance [um]', 1.0e6_wp, instead='running_play'), & ! a preload leaves a part of it
+    column_type('running_play', 'play [um]', 1.0e6_wp), &
     column_type('shaft_temperature', 'shaft [C]', 1.0_wp, zero=ice_point), &
     column_type('maximum_film_temperature', 'hottest film [C]', 1.0_wp, zero=ice_point), &
     column_type('critical_mass', 'crit. mass [kg]', 1.0_wp), &
@@ -145,6 +147,7 @@ contains
     many = 0
     do i = 1, size(columns)
       if (columns(i)%name == column_name(scene) .or. many == widest) cycle
+      if (.not. all(ieee_is_nan(history_values(history, trim(columns(i)%instead))))) cycle
       numbers(:, many + 1) = columns(i)%scale*(history_values(history, trim(columns(i)%name)) - columns(i)%zero)
       if (.not. changes(numbers(:, many + 1), size_beside(columns(i), history))) cycle
       many = many + 1
