@@ -253,6 +253,7 @@ class PythonTest(unittest.TestCase):
         self.assertAlmostEqual(float(minutes[1]), 12.0*(3.0 + 0.1*float(minutes[2])), delta=0.7)
         self.assertRegex(at_work, f"^at work: twelve for .* s of about {minutes[1]} s, search for [^ ]* s$")
         self.assertIn("how long is not known", lines[3])
+        self.assertRegex(progress.so_far("twelve", 60.0), f"^twelve for 60 s, longer than the {minutes[1]} s it was thought to take$")
         self.assertEqual(progress.expected(Part("whirl_1", "alone", states=7)), "how long is not known yet", "a bearing alone is no machine")
 
     def test_study_that_is_stopped(self):

@@ -46,7 +46,7 @@ class Progress:
     def __init__(self, number: int, tell: Callable[[str], None], seconds: int = 0, pause: float = PAUSE) -> None:
         self.number, self.tell, self.seconds, self.pause = number, tell, seconds, pause
         self.begun, self.at_work = 0, dict[str, float]()  # question: when it began
-        self.takes: dict[str, str] = {}                    # question: about how long, where that is known
+        self.takes: dict[str, float] = {}                  # question: about how long, where that is known [s]
         # Of parts of this call that have ended, and whose number of states is known: [states, seconds], of the whole and of a bearing of it alone.
         self.taken = {False: [0, 0.0], True: [0, 0.0]}
         self.hints: dict[str, str] = {}                    # of a part's time, by its name
@@ -58,7 +58,7 @@ class Progress:
             self.begun += 1
             self.at_work[part.question] = time.monotonic()
             if part.states and self.each(part) and not part.goes_on:
-                self.takes[part.question] = f" of about {duration(part.states*self.each(part))}"
+                self.takes[part.question] = part.states*self.each(part)
             limit = f"; its limit is {duration(self.seconds)}" if self.seconds else ""
             self.tell(f"{self.begun} of {self.number} begins: {part.question}: {part.work}; {self.expected(part)}{limit}")
 
@@ -80,6 +80,13 @@ class Progress:
             return f"how long is not known, for how many states it takes is found on the way; one took {duration(each)} so far"
         return f"about {duration(part.states*each)}, as one state took {duration(each)} so far"
 
+    def so_far(self, question: str, spent: float) -> str:
+        """How long a part is at work, of how long, or beyond what it was thought to take."""
+        words, takes = f"{question} for {duration(spent)}", self.takes.get(question)
+        if takes is None:
+            return words
+        return f"{words} of about {duration(takes)}" if spent <= takes else f"{words}, longer than the {duration(takes)} it was thought to take"
+
     def end(self, part: Part, words: str = "") -> None:
         """The line after a part."""
         with self.lock:
@@ -99,7 +106,7 @@ class Progress:
                 with self.lock:
                     now = time.monotonic()
                     if self.at_work:
-                        self.tell("at work: " + ", ".join(f"{question} for {duration(now - began)}{self.takes.get(question, '')}" for question, began in self.at_work.items()))
+                        self.tell("at work: " + ", ".join(self.so_far(question, now - began) for question, began in self.at_work.items()))
 
         watcher = threading.Thread(target=watch, daemon=True)
         watcher.start()
