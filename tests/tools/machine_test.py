@@ -228,8 +228,12 @@ class BlowerTest(unittest.TestCase):
                 hertz = numpy.sort(file["dynamics/mode_frequency"][...].ravel()/(2.0*math.pi))
                 bends = hertz[hertz > 800.0]
                 self.assertTrue(((bends > 1000.0) & (bends < 1300.0)).all() and len(bends) == 2, hertz)
-                reach = plot_machine.read(path, file).reach(1)
+                read = plot_machine.read(path, file)
+                reach, room = read.reach(1), read.room(1)
                 self.assertAlmostEqual(numpy.nanmin(numpy.hypot(*reach.T)), 0.15*110.0e-6, delta=1.0e-9)  # its pads have a preload of 0.85
+                self.assertAlmostEqual(room[0], reach[len(reach)//2, 0]*-1.0, delta=1.0e-6)  # onto pad 2
+                self.assertAlmostEqual(room[1], reach[0, 0], delta=1.0e-6)  # between pads 3 and 1
+                self.assertGreater(room[1], 1.5*room[0])
                 above = plot_machine.draw(path, file).axes[0]
                 mass, stiffness = (file[f"shaft/{name}"][...] for name in ("mass", "stiffness"))
             free = numpy.sort(numpy.sqrt(numpy.abs(numpy.linalg.eigvals(numpy.linalg.solve(mass, stiffness)))))[2]/(2.0*math.pi)

@@ -75,6 +75,11 @@ class Machine:
             far[far > OPEN*clearance] = numpy.nan
         return numpy.column_stack((far*numpy.cos(angle), far*numpy.sin(angle)))
 
+    def room(self, number):
+        """The same along -x and x alone, at most the clearance [m]."""
+        clearance, pads = self.bearings[number - 1, 3], self.pads[number - 1]
+        return numpy.full(2, clearance) if pads is None else numpy.minimum(pads.limit(numpy.array((math.pi, 0.0))), clearance)
+
 
 def is_machine(file):
     """Whether a case file is of a machine with an answer."""
@@ -186,7 +191,10 @@ def draw_machine(chart, machine):
     if len(machine.line):
         draw_larger_line(chart, machine)
     chart.set_aspect("equal", adjustable="datalim")
-    chart.set(ylabel="[mm]", ylim=(-1.25*MILLI*machine.thickest, 1.25*MILLI*machine.thickest))
+    high = 1.25*MILLI*machine.thickest  # at least: limits that are fixed Matplotlib would warn of where the scale needs more
+    chart.update_datalim([(0.0, -high), (0.0, high)], updatex=False)
+    chart.margins(y=0.0)
+    chart.set(ylabel="[mm]")
     chart.set_title("to scale; discs as large as steel with their mass and inertia", fontsize=9)
 
 
@@ -235,16 +243,16 @@ def round_down(value):
 
 
 def draw_line(chart, machine):
-    """Where the shaft's axis is, between the ends of each bearing's clearance."""
+    """Where the shaft's axis is, and how far it goes along x in each sleeve before it touches what is at rest."""
     if len(machine.line):
         for column, (axis, style) in enumerate((("x", "-"), ("y", "--"))):
             chart.plot(*smooth(machine, MICRO*machine.line, column), style, color="C3", linewidth=1.4, label=f"axis along {axis}")
-    for number, (z, length, _, clearance) in enumerate(machine.bearings):
+    for number, (z, length, *_) in enumerate(machine.bearings):
         if machine.thrust[number]:
             continue
-        middle = machine.offset("x")[number]
-        chart.fill_between(MILLI*numpy.array((z - 0.5*length, z + 0.5*length)), MICRO*(middle - clearance), MICRO*(middle + clearance),
-                           color="C0", alpha=0.18, linewidth=0.0, label=None if number else "sleeve's middle, along x, and its clearance")
+        middle, (low, high) = machine.offset("x")[number], machine.room(number + 1)
+        chart.fill_between(MILLI*numpy.array((z - 0.5*length, z + 0.5*length)), MICRO*(middle - low), MICRO*(middle + high),
+                           color="C0", alpha=0.18, linewidth=0.0, label=None if number else "sleeve's middle, and the clearance along x at rest")
         chart.plot(MILLI*numpy.array((z - 0.5*length, z + 0.5*length)), 2*[MICRO*middle], color="C0", linewidth=0.8)
     for disc in machine.discs:
         chart.axvline(MILLI*disc.position, color="0.6", linewidth=0.8, linestyle=":")
