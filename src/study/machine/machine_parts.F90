@@ -273,7 +273,7 @@ contains
         end if
         do k = 1, i - 1
           if (abs(machine%bearing_position(i) - machine%bearing_position(k)) >= &
-              0.5_wp*(length_of(part(i)) + length_of(part(k)))) cycle
+              0.5_wp*(length_of(part(i)) + length_of(part(k))) - rounding*whole) cycle
           call fail(error, scene%file//': &bearings: positions('//text(i)//') = '//text(machine%bearing_position(i))// &
                     ': the bearing overlaps that of positions('//text(k)//')')
           return
