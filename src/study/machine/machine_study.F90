@@ -281,9 +281,9 @@ contains
         part%scene%operation%speed_rpm = speed_rpm
         call new_solution(part%solution)
         if (.not. context%restart%continues) call context%log%line('bearing '//text(i)//' alone:')
+        if (context%restart%continues) part%scene%transient%present = .true. ! heat is frozen
         call part%solution%set_up(part%scene, part%plan, context)
         if (context%restart%continues) then
-          part%scene%transient%present = .true. ! heat is frozen
           call part%solution%resume(error, part_archive(i))
           if (allocated(error)) return
           self%bearing(i) = machine_bearing_type(part%solution%bearing, part%solution%newton, part%solution%path)
@@ -555,7 +555,10 @@ contains
       call add_bearing(i, self%machine%journal(i), self%part(i)%solution%bearing, scene%output, context%log, answer(i), summary, grids)
     end do
     call add_result(summary, 'power_loss', sum(answer%power_loss))
-    if (self%converged) call add_machine_heat(self%machine, self%answer, answer, context%log, summary, arrays)
+    ! Over time temperatures stay as they are, and films' heat is not solved for.
+    if (self%converged .and. .not. (allocated(self%time) .or. allocated(self%orbits))) then
+      call add_machine_heat(self%machine, self%answer, answer, context%log, summary, arrays)
+    end if
     if (self%onset > 0.0_wp) call add_result(summary, 'onset_speed_rpm', self%onset)
     if (allocated(self%time)) then
       series => self%time%series
