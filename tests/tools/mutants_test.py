@@ -31,6 +31,12 @@ contains
       - 0.25_wp
     PetscCallA(VecSet(gap - 1, ierr))
     if (allocated(gap)) call destroy_gap(gap + 1)
+    words = 'gap'//text(gap - 1)
+    self%reason%detail = text(gap*2.0_wp)
+    call context%log%line(text(gap + 1))
+    if (gap > 1.0_wp) call report%ending%add_words(text(gap - 1), 'b')
+    call show_gap(gap + 1)
+    call leave_stage()
   end subroutine set_gap
 end module gfb_gap
 """
@@ -58,7 +64,7 @@ class Mutants(unittest.TestCase):
         self.path.write_text(MODULE, encoding="utf-8")
 
     def test_one_statement_of_a_body_changes(self):
-        """Neither declarations, heads, comments, texts nor calls of PETSc do."""
+        """Neither declarations, heads, comments, texts, words of messages nor calls of PETSc do."""
         found = {(mutant.line, mutant.kind, mutant.after.strip()) for mutant in mutants.mutants_of(self.path, self.root)}
         self.assertEqual(found, EXPECTED)
 
