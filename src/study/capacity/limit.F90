@@ -37,7 +37,7 @@ module gfb_limit
     real(wp) :: arm = 0.0_wp          !! by which a tilt moves the film's edge [m]
     real(wp) :: area = 0.0_wp         !! of the pads of a thrust bearing; 0: it is a journal's [m2]
   contains
-    procedure :: value_at, point_with, reserve, next_value, aimed_value, is_of_film, results, words, never_within, course
+    procedure :: value_at, point_with, reserve, room, next_value, aimed_value, is_of_film, results, words, never_within, course
     procedure, private :: coefficient, left_by_heat
   end type limit_type
 
@@ -125,6 +125,18 @@ contains
       left = log(self%contact_part/max(part, tiny(part)))
     end if
   end function reserve
+
+  !> What the next value to try follows from: of a tilt, whose first step is as long as the film allows, what the film leaves even
+  !> where heat leaves less; else the reserve.
+  function room(self, bearing, left) result(of_film)
+    class(limit_type), intent(in) :: self !! the limit
+    type(bearing_system_type), intent(in) :: bearing !! at an answer
+    real(wp), intent(in) :: left !! its reserve [1]
+    real(wp) :: of_film !! [1]
+
+    of_film = left
+    if (left > 0.0_wp .and. self%highest_temperature > 0.0_wp) of_film = bearing%smallest_gap()/self%smallest_gap - 1.0_wp
+  end function room
 
   !> How far the hottest place of film and top foil is below the highest temperature, over how far that is above the gas around [1].
   pure real(wp) function left_by_heat(self, answer) result(left)

@@ -118,7 +118,7 @@ contains
       if (.not. left < 0.0_wp) call sides%within%save(bearing)
       sides%bracket%low = value
       sides%bracket%at_low = left
-      next = limit%next_value(value, left)
+      next = limit%next_value(value, limit%room(bearing, left))
       if (abs(next - value) <= 0.0_wp) exit ! there is no way farther back
       call find_rate(limit, bearing, newton, abs(next - value), left, sides)
       aim = limit%aimed_value(value, left, sides%slope)
