@@ -24,7 +24,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb import result_names  # noqa: E402
-from gfb.design_study import parts_of, rows_of  # noqa: E402
+from gfb.design_study import parts_of, rows_of, share_of  # noqa: E402
 from gfb.design_work import Part, Progress, computed, tilt_words  # noqa: E402
 from gfb.program import find_program, launcher, read_keys  # noqa: E402
 from gfb.report import main as report  # noqa: E402
@@ -203,6 +203,13 @@ class PythonTest(unittest.TestCase):
         self.assertEqual(limits["point"], {"highest_temperature": 420.0, "largest_stress": 4.0e8})
         self.assertEqual(limits["orbit"], limits["point"])
         self.assertEqual((limits["capacity"], limits["misalignment"], limits["whirl"]), ({"smallest_gap": 4.0e-6}, {"smallest_gap": 4.0e-6}, {}))
+
+    def test_tolerances_need_no_unit(self):
+        """A tolerance is a share of its key; where the key has several values, or none, it is as it is."""
+        case = gfb.Case(SMALL)
+        self.assertEqual(share_of(case, "bearing%clearance", 0.05*case["bearing%clearance"]), "5 %")
+        self.assertEqual(share_of(case, "operation%load", 0.5), "0.5")
+        self.assertEqual(share_of(case, "bump_foil%height", 1.0e-5), "1e-05")
 
     def test_pictures_in_time(self):
         """No picture of a part is begun after its time, and what is left out is said."""

@@ -335,6 +335,12 @@ def answer_orbit(question: str, run: dict[str, Any]) -> list[tuple[str, str, str
              bool(ending))]
 
 
+def share_of(case: Case, key: str, tolerance: float) -> str:
+    """A tolerance as a share of its key, which needs no unit; as it is where the key has not one value."""
+    value = case.get(key)
+    return f"{100.0*tolerance/abs(value):.2g} %" if isinstance(value, (int, float)) and value else f"{tolerance:.2g}"
+
+
 def answer_tolerances(question: str, run: dict[str, Any]) -> list[tuple[str, str, str, bool]]:
     """The spread of the film, and the three keys that do most of it."""
     case, summary = run["used"], run["summary"]
@@ -343,7 +349,7 @@ def answer_tolerances(question: str, run: dict[str, Any]) -> list[tuple[str, str
     shares = sorted(((abs(summary[f"d_minimum_gap_d_{key.replace('%', '_')}"]["value"])*value, key) for key, value in tolerances.items()
                      if f"d_minimum_gap_d_{key.replace('%', '_')}" in summary), reverse=True)
     spread = summary.get("standard_deviation_minimum_gap", {}).get("value", math.sqrt(sum(share**2 for share, _ in shares)))
-    most = ", ".join(f"{key} {1.0e6*share:.2g} um (for {tolerances[key]:.2g})" for share, key in shares[:3])
+    most = ", ".join(f"{key} {1.0e6*share:.2g} um (for {share_of(case, key, tolerances[key])})" for share, key in shares[:3])
     return [(question, f"± {1.0e6*spread:.2g} um, one standard deviation", most, spread > 0.5*summary["minimum_gap"]["value"])]
 
 
