@@ -4,9 +4,11 @@
 import math
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import h5py
 import numpy
@@ -243,6 +245,13 @@ class BlowerTest(unittest.TestCase):
             self.assertEqual(sorted(round(abs(end), 9) for end in plates[0].intervaly), [22.0, 45.0])
             run = read_run(answer.stem, None, pictures=False)
             self.assertIn("All known limits are kept; film of bearing 1 is nearest", run["verdict"])
+            asked = []
+            with unittest.mock.patch.multiple("gfb.report.main", drawn=lambda arguments, *_: asked.append(arguments), say=lambda _: None, AT_ONCE=1):
+                read_run(answer.stem, None)
+            self.assertEqual([one[0] for one in asked if one[-1] == "polar"], [f"{answer.stem}.bearing_{number}.film.vtkhdf" for number in (1, 2)])
+            self.assertIn([f"{answer.stem}.bearing_3.film.vtkhdf"], asked)
+            said = subprocess.run([PROJECT/"tools/plot", f"{answer.stem}.bearing_3.film.vtkhdf", "--show", "polar"], capture_output=True, text=True, check=False)
+            self.assertEqual((said.returncode, "is of journals" in said.stderr), (1, True), said.stderr)
             pyplot.close("all")
 
 

@@ -243,6 +243,8 @@ def draw_polar(options, path, file):
     """The film around the shaft."""
     if options.columns or options.step or "VTKHDF" not in file or foil.is_foil(file):
         stop(f"{path}: --show polar is of one CASE.film.vtkhdf, without columns")
+    if ring.is_ring(file):
+        stop(f"{path}: --show polar is of journals; the sectors of a thrust bearing are drawn without --show")
     return polar.draw(path, file)
 
 

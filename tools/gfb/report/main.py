@@ -139,7 +139,9 @@ def read_run(stem, gfb, title="", pictures=True, curve=False, seconds=0):
         about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency, machine), "sketch": drawn_case, "place": place, "heat": heat_rows(summary),
                  "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
         pad = place.pad if place else 0 if machine else thinnest_pad(summary)
-    drawings = pictures_of(stem, points, shows, curve, pad, len(machine.bearings) if machine else 0, seconds) if pictures else []
+    count = len(machine.bearings) if machine else 0
+    rings = [number for number in range(1, count + 1) if f"force_z_{number}" in summary]  # thrust bearings
+    drawings = pictures_of(stem, points, shows, curve, pad, count, rings, seconds) if pictures else []
     why = "" if converged else ended(summary)
     return about | {
         "verdict": sentence(margins, why, about["open_questions"]), "name": stem.name, "title": title or used.groups.get("scene", {}).get("title", ""), "summary": summary,
@@ -203,7 +205,7 @@ def thinnest_pad(summary):
     return min(gaps, key=lambda pad: gaps[pad]) if gaps else 0
 
 
-def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0, seconds=0):
+def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0, rings=(), seconds=0):
     """Title and picture of everything that tools/plot draws of a result, or of its points or time alone; what it cannot draw, or not in time,
     is left out."""
     wanted = [(words, [f"{stem}.{part}.vtkhdf"]) for part, words in SURFACES.items()]
@@ -225,7 +227,7 @@ def pictures_of(stem, points, shows, curve=False, pad=0, bearings=0, seconds=0):
     wanted[:0] = [(words, [f"{stem}.h5", "--show", show]) for show, words in OF_MACHINES.items() if show in shows]
     for bearing in range(1, bearings + 1):
         wanted += [(f"{words} of bearing {bearing}", [f"{stem}.bearing_{bearing}.film.vtkhdf", *more])
-                   for words, more in (("the film", []), ("pressure and film thickness around the shaft", ["--show", "polar"]))]
+                   for words, more in (("the film", []), ("pressure and film thickness around the shaft", ["--show", "polar"])) if not (more and bearing in rings)]
     wanted += [(words, [f"{stem}.h5", "--show", show]) for show, words in SHOWN.items() if show in shows]
     if curve and (points > 1 or "transient" in shows):
         wanted = [one for one in wanted if one[1] == [f"{stem}.h5"] or bearings and one[1][-1] in OVER_POINTS]
