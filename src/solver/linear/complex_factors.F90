@@ -21,6 +21,7 @@ module gfb_complex_factors
   integer(c_int), parameter :: analyse = 1, factor = 2, solve = 3 !! jobs of MUMPS
   integer(c_int), parameter :: room_control = 14 !! of ICNTL: room for pivoting [%]
   integer(c_int), parameter :: transposition_control = 9 !! of ICNTL: other than 1 solves with the transposed matrix
+  integer, parameter :: limit_control = 23 !! of ICNTL: largest memory of a rank [MB]
   integer, parameter :: no_memory = -13 !! as MUMPS says it
   integer, parameter :: workspace_too_small = -9, room_too_small = -11 !! MUMPS' own, and one that it was given
   integer, parameter :: controls = 60 !! of MUMPS, that options may set
@@ -33,6 +34,7 @@ module gfb_complex_factors
     logical :: analysed = .false., factored = .false.
     complex(wp) :: logarithm = 0.0_wp !! of the determinant, up to multiples of 2 pi i
     integer :: room = first_room !! for pivoting [%]
+    integer :: analysed_room = first_room !! the same, of the analysis [%]
     integer, allocatable :: entries(:), before(:) !! of the vector, each rank's, and those of the ranks before it
     logical, allocatable :: kept(:) !! unknowns of this rank that the equations have
     integer :: columns = 0          !! that rows may hold, from the first
@@ -70,6 +72,13 @@ module gfb_complex_factors
       type(c_ptr), value :: one
       integer(c_int), value :: place, value
     end subroutine gfb_mumps_control
+
+    function gfb_mumps_told(one, place) result(value) bind(c)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: one
+      integer(c_int), value :: place
+      integer(c_int) :: value
+    end function gfb_mumps_told
 
     function gfb_mumps_run(one, job, sides, right) result(status) bind(c)
       import :: c_int, c_ptr
@@ -221,6 +230,7 @@ contains
     if (.not. self%analysed) then
       status = gfb_mumps_run(self%mumps, analyse, 0_c_int, c_null_ptr)
       self%analysed = status >= 0
+      self%analysed_room = int(gfb_mumps_told(self%mumps, int(room_control, c_int)))
     end if
     if (.not. self%analysed) return
     do
@@ -237,16 +247,21 @@ contains
     if (self%factored) self%logarithm = logarithm_of(self)
   end subroutine factor_complex
 
-  !> Room for factors and fronts, which is ours: MUMPS' own stays as long as its analysis.
+  !> Room for factors and fronts, which is ours: MUMPS' own stays as long as its analysis. Where the user's options limit what MUMPS
+  !> takes it is MUMPS' own.
   subroutine make_room(factors, status)
-    type(complex_factors_type), intent(inout) :: factors !! analysed with the first room for pivoting
+    type(complex_factors_type), intent(inout) :: factors !! analysed
     integer, intent(out) :: status !! 0, on all ranks, or MUMPS' word for no memory
     integer(c_int64_t) :: entries
     real(wp) :: failed(1)
     integer :: allocated_status
 
+    status = 0
+    if (gfb_mumps_told(factors%mumps, int(limit_control, c_int)) > 0) return
     entries = gfb_mumps_entries(factors%mumps)
-    if (factors%room > first_room) entries = int(real(entries, wp)*real(100 + factors%room, wp)/real(100 + first_room, wp), c_int64_t)
+    associate (room => int(gfb_mumps_told(factors%mumps, int(room_control, c_int))), before => max(1, 100 + factors%analysed_room))
+      if (100 + room > before) entries = int(real(entries, wp)*real(100 + room, wp)/real(before, wp), c_int64_t)
+    end associate
     if (associated(factors%work)) then
       if (size(factors%work, kind=c_int64_t) < entries) deallocate (factors%work)
     end if

@@ -39,6 +39,12 @@ void gfb_mumps_control(ZMUMPS_STRUC_C *one, int place, int value)
   one->icntl[place - 1] = value;
 }
 
+/* What ICNTL(place) is. */
+int gfb_mumps_told(const ZMUMPS_STRUC_C *one, int place)
+{
+  return one->icntl[place - 1];
+}
+
 /* Analysis (job 1), factors (2) or solutions (3); returns INFOG(1), negative where it failed. The right sides, wanted one
    behind the other on the first rank, are overwritten by their solutions. */
 int gfb_mumps_run(ZMUMPS_STRUC_C *one, int job, int sides, ZMUMPS_COMPLEX *right)
@@ -51,16 +57,18 @@ int gfb_mumps_run(ZMUMPS_STRUC_C *one, int job, int sides, ZMUMPS_COMPLEX *right
   return one->infog[0];
 }
 
-/* Entries that this rank's factors and fronts take, as the analysis has estimated them with ICNTL(14) [1]. */
+/* Entries that this rank's factors and fronts take, or fronts alone where factors go to files, as the analysis has estimated
+   them with ICNTL(14) [1]. */
 int64_t gfb_mumps_entries(const ZMUMPS_STRUC_C *one)
 {
-  const int     entries = one->info[7];
+  const int     on_disk = one->icntl[21], entries = on_disk ? one->info[19] : one->info[7];
   const int64_t million = 1000000;
 
   return entries < 0 ? -million * entries : entries;
 }
 
-/* Where factors and fronts go; the caller keeps it as long as it solves. MUMPS counts many entries in millions. */
+/* Where factors and fronts go, which MUMPS finds room for itself before; the caller keeps it as long as it solves. MUMPS counts
+   many entries in millions. */
 void gfb_mumps_use(ZMUMPS_STRUC_C *one, ZMUMPS_COMPLEX *room, int64_t entries)
 {
   const int64_t million = 1000000;
