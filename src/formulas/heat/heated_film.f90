@@ -18,7 +18,8 @@ module gfb_heated_film
   use gfb_kinds, only: wp
   use gfb_film_flow, only: film_flow_type, flow_here
   use gfb_upwind_weight, only: upwind_weight, upwind_weight_derivative
-  use gfb_film_geometry, only: film_geometry_type, film_shapes, most_film_nodes
+  use gfb_film_geometry, only: film_geometry_type, film_shapes, film_shape, biquadratic_shape, &
+                               film_nodes, biquadratic_nodes, most_film_nodes
   use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_state, gas_state_type, &
                          viscosity_sutherland, viscosity_power, sutherland_temperature
   implicit none (type, external)
@@ -28,6 +29,9 @@ module gfb_heated_film
 
   !> Variables of a point of a film, see `values_at`.
   integer, parameter :: variables = 14
+  !> What flows there, see `point_numbers`: fluxes along x and z, into the gas, foil and shaft.
+  integer, parameter :: flux_along = 1, flux_across = 2, into_gas = 3, into_foil = 4, &
+                        into_shaft = 5, flows = 5
 
   !> A number and its derivatives by the variables.
   type :: dual_type
@@ -103,19 +107,38 @@ contains
     type(heated_gas_type), intent(in) :: gas !! that carries the heat
     type(heated_state_type), intent(in) :: state !! at the nodes
     real(wp), intent(out) :: residual(:, :) !! (nodes, rows)
-    real(wp) :: shapes(size(residual, 1), size(residual, 1)), at(variables)
-    real(wp) :: flux_x, flux_z, source, to_shaft, to_foil, shear
-    integer :: i, n
 
-    n = size(residual, 1)
-    shapes = film_shapes(n)
+    if (size(residual, 1) == film_nodes) then
+      call sum_residual(film_nodes, film_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, geometry%stretch, flow, gas, state, residual)
+    else
+      call sum_residual(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, geometry%stretch, flow, gas, state, residual)
+    end if
+  end subroutine heated_residual
+
+  !> The residuals' sums over the Gauss points, of which there are as many as nodes.
+  pure subroutine sum_residual(nodes, shapes, gradients, areas, stream_length, stretch, flow, gas, &
+                               state, residual)
+    integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
+    real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
+    real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
+    real(wp), intent(in) :: areas(nodes)               !! of the points [m2]
+    real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    real(wp), intent(in) :: stretch(nodes)             !! see `gfb_film_surface` [1]
+    type(film_flow_type), intent(in) :: flow
+    type(heated_gas_type), intent(in) :: gas
+    type(heated_state_type), intent(in) :: state
+    real(wp), intent(out) :: residual(nodes, heated_rows)
+    real(wp) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    integer :: i
+
     residual = 0.0_wp
-    do i = 1, n
-      at = values_at(shapes(:, i), geometry%gradient(:, :, i), state, i)
-      call point_numbers(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), at, &
-                         state%part, flux_x, flux_z, source, to_shaft, to_foil, shear)
-      associate (area => geometry%area(i), shape => shapes(:, i), &
-                 gradient => geometry%gradient(:, :, i))
+    do i = 1, nodes
+      call point_numbers(gas, flow_here(flow, stretch(i)), stream_length(i), &
+                         values_at(nodes, shapes(:, i), gradients(:, :, i), state, i), state%part, &
+                         flux_x, flux_z, source, to_shaft, to_foil, shear)
+      associate (area => areas(i), shape => shapes(:, i), gradient => gradients(:, :, i))
         residual(:, row_mass) = residual(:, row_mass) &
           + area*(flux_x*gradient(1, :) + flux_z*gradient(2, :))
         residual(:, row_energy) = residual(:, row_energy) + area*source*shape
@@ -123,7 +146,7 @@ contains
         residual(:, row_shaft) = residual(:, row_shaft) + area*to_shaft*shape
       end associate
     end do
-  end subroutine heated_residual
+  end subroutine sum_residual
 
   !> Exact derivatives of `heated_residual` by the nodal fields, and by the excess of the gap.
   pure subroutine heated_jacobian(geometry, flow, gas, state, by_field, by_excess)
@@ -133,40 +156,68 @@ contains
     type(heated_state_type), intent(in) :: state !! at the nodes
     real(wp), intent(out) :: by_field(:, :, :, :) !! (nodes of the row, rows, nodes, fields)
     real(wp), intent(out) :: by_excess(:, :, :)   !! (nodes, rows, points)
-    real(wp), dimension(size(by_field, 1), size(by_field, 1)) :: shapes
-    real(wp) :: at(variables)
-    type(dual_type) :: now(variables), flux_x, flux_z, source, to_shaft, to_foil, shear
-    real(wp) :: row(size(by_field, 1), heated_rows, variables)
-    integer :: i, b, k, n
 
-    n = size(by_field, 1)
-    shapes = film_shapes(n)
+    if (size(by_field, 1) == film_nodes) then
+      call sum_jacobian(film_nodes, film_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, geometry%stretch, flow, gas, state, by_field, &
+                        by_excess)
+    else
+      call sum_jacobian(biquadratic_nodes, biquadratic_shape, geometry%gradient, geometry%area, &
+                        geometry%stream_length, geometry%stretch, flow, gas, state, by_field, &
+                        by_excess)
+    end if
+  end subroutine heated_jacobian
+
+  !> The derivatives' sums over the Gauss points, of which there are as many as nodes.
+  pure subroutine sum_jacobian(nodes, shapes, gradients, areas, stream_length, stretch, flow, gas, &
+                               state, by_field, by_excess)
+    integer, value :: nodes !! a value: the compiler makes a copy of the loops for each
+    real(wp), intent(in) :: shapes(nodes, nodes)       !! shape functions (node, point) [1]
+    real(wp), intent(in) :: gradients(2, nodes, nodes) !! their gradients (2, node, point) [1/m]
+    real(wp), intent(in) :: areas(nodes)               !! of the points [m2]
+    real(wp), intent(in) :: stream_length(nodes)       !! distance of the nodes along x [m]
+    real(wp), intent(in) :: stretch(nodes)             !! see `gfb_film_surface` [1]
+    type(film_flow_type), intent(in) :: flow
+    type(heated_gas_type), intent(in) :: gas
+    type(heated_state_type), intent(in) :: state
+    real(wp), intent(out) :: by_field(nodes, heated_rows, nodes, heated_fields)
+    real(wp), intent(out) :: by_excess(nodes, heated_rows, nodes)
+    real(wp) :: rate(variables, flows), by(flows)
+    integer :: i, b, k
+
     by_field = 0.0_wp
-    do i = 1, n
-      at = values_at(shapes(:, i), geometry%gradient(:, :, i), state, i)
-      now = variable(at, [(k, k=1, variables)])
-      call point_duals(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), now, &
-                       state%part, flux_x, flux_z, source, to_shaft, to_foil, shear)
-      associate (area => geometry%area(i), shape => shapes(:, i), &
-                 gradient => geometry%gradient(:, :, i))
-        do k = 1, variables
-          row(:, row_mass, k) = area*(flux_x%d(k)*gradient(1, :) + flux_z%d(k)*gradient(2, :))
-          row(:, row_energy, k) = area*source%d(k)*shape
-          row(:, row_foil, k) = area*to_foil%d(k)*shape
-          row(:, row_shaft, k) = area*to_shaft%d(k)*shape
-        end do
-        by_excess(:, :, i) = row(:, :, 4)
-        do b = 1, n
+    do i = 1, nodes
+      call point_rates(gas, flow_here(flow, stretch(i)), stream_length(i), &
+                       values_at(nodes, shapes(:, i), gradients(:, :, i), state, i), state%part, &
+                       rate)
+      associate (area => areas(i), shape => shapes(:, i), gradient => gradients(:, :, i))
+        by_excess(:, :, i) = 0.0_wp
+        call add_rates(nodes, area*rate(4, :), shape, gradient, by_excess(:, :, i))
+        do b = 1, nodes
           do k = 1, heated_fields - 1
-            by_field(:, :, b, k) = by_field(:, :, b, k) + shape(b)*row(:, :, 3*k - 2) &
-              + gradient(1, b)*row(:, :, 3*k - 1) + gradient(2, b)*row(:, :, 3*k)
+            by = shape(b)*rate(3*k - 2, :) + gradient(1, b)*rate(3*k - 1, :) &
+              + gradient(2, b)*rate(3*k, :)
+            call add_rates(nodes, area*by, shape, gradient, by_field(:, :, b, k))
           end do
-          by_field(:, :, b, field_shaft) = by_field(:, :, b, field_shaft) + shape(b)*row(:, :, 13) &
-            + gradient(2, b)*row(:, :, 14)
+          by = shape(b)*rate(13, :) + gradient(2, b)*rate(14, :)
+          call add_rates(nodes, area*by, shape, gradient, by_field(:, :, b, field_shaft))
         end do
       end associate
     end do
-  end subroutine heated_jacobian
+  end subroutine sum_jacobian
+
+  !> Adds what a point's flows do in the equations of the nodes.
+  pure subroutine add_rates(nodes, flow, shape, gradient, rows)
+    integer, value :: nodes
+    real(wp), intent(in) :: flow(flows), shape(nodes), gradient(2, nodes)
+    real(wp), intent(inout) :: rows(nodes, heated_rows)
+
+    rows(:, row_mass) = rows(:, row_mass) &
+      + (flow(flux_along)*gradient(1, :) + flow(flux_across)*gradient(2, :))
+    rows(:, row_energy) = rows(:, row_energy) + flow(into_gas)*shape
+    rows(:, row_foil) = rows(:, row_foil) + flow(into_foil)*shape
+    rows(:, row_shaft) = rows(:, row_shaft) + flow(into_shaft)*shape
+  end subroutine add_rates
 
   !> Power of the shaft's drag on one element, \( \int V \tau_s d\Omega \) [W].
   pure real(wp) function heated_shear(geometry, flow, gas, state, nodes) result(power)
@@ -182,7 +233,7 @@ contains
     power = 0.0_wp
     do i = 1, nodes
       call point_numbers(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
-                         values_at(shapes(:, i), geometry%gradient(:, :, i), state, i), &
+                         values_at(nodes, shapes(:, i), geometry%gradient(:, :, i), state, i), &
                          state%part, flux_x, flux_z, source, to_shaft, to_foil, shear)
       power = power + geometry%area(i)*shear
     end do
@@ -204,7 +255,7 @@ contains
     by_field = 0.0_wp
     do i = 1, size(by_excess)
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i))
-        at = values_at(shape, gradient, state, i)
+        at = values_at(size(shape), shape, gradient, state, i)
         call point_duals(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
                          variable(at, [(k, k=1, variables)]), state%part, flux_x, flux_z, source, &
                          to_shaft, to_foil, shear)
@@ -222,25 +273,140 @@ contains
   end subroutine heated_shear_rates
 
   !> The variables at a point: p, h, T, T_f with their slopes along x and z, T_s with that along z.
-  pure function values_at(shape, gradient, state, point) result(at)
-    real(wp), intent(in) :: shape(:)       !! functions [1]
-    real(wp), intent(in) :: gradient(:, :) !! (2, nodes) theirs [1/m]
+  pure function values_at(nodes, shape, gradient, state, point) result(at)
+    integer, value :: nodes
+    real(wp), intent(in) :: shape(nodes)       !! functions [1]
+    real(wp), intent(in) :: gradient(2, nodes) !! theirs [1/m]
     type(heated_state_type), intent(in) :: state
     integer, intent(in) :: point
-    real(wp) :: at(variables), value(size(shape))
-    integer :: k
+    real(wp) :: at(variables), change
+    integer :: k, b
 
-    do k = 1, heated_fields - 1
-      ! Less one node's value: what is even has no gradient to the last digit.
-      value = state%field(:size(shape), k)
-      at(3*k - 2) = dot_product(shape, value)
-      at(3*k - 1:3*k) = matmul(gradient, value - value(1))
+    at = 0.0_wp
+    do b = 1, nodes
+      do k = 1, heated_fields - 1
+        ! Less one node's value: what is even has no gradient to the last digit.
+        change = state%field(b, k) - state%field(1, k)
+        at(3*k - 2) = at(3*k - 2) + shape(b)*state%field(b, k)
+        at(3*k - 1) = at(3*k - 1) + gradient(1, b)*change
+        at(3*k) = at(3*k) + gradient(2, b)*change
+      end do
+      at(13) = at(13) + shape(b)*state%field(b, field_shaft)
+      at(14) = at(14) + gradient(2, b)*(state%field(b, field_shaft) - state%field(1, field_shaft))
     end do
     at(4) = at(4) + state%excess(point)
-    value = state%field(:size(shape), field_shaft)
-    at(13) = dot_product(shape, value)
-    at(14) = dot_product(gradient(2, :), value - value(1))
   end function values_at
+
+  !> Derivatives of all flows at a point by its variables.
+  !>
+  !> Without the upwind term few variables matter, and few of these together: by hand that takes
+  !> half of the time of numbers with derivatives.
+  pure subroutine point_rates(gas, flow, length, at, part, rate)
+    type(heated_gas_type), intent(in) :: gas
+    type(film_flow_type), intent(in) :: flow
+    real(wp), intent(in) :: length !! of the element along x [m]
+    real(wp), intent(in) :: at(variables), part
+    real(wp), intent(out) :: rate(variables, flows)
+    type(dual_type) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    integer :: k
+
+    if (.not. flow%upwind) then
+      call galerkin_rates(gas, flow%entraining_speed, at, part, rate)
+      return
+    end if
+    call point_duals(gas, flow, length, variable(at, [(k, k=1, variables)]), part, flux_x, flux_z, &
+                     source, to_shaft, to_foil, shear)
+    rate(:, flux_along) = flux_x%d
+    rate(:, flux_across) = flux_z%d
+    rate(:, into_gas) = source%d
+    rate(:, into_foil) = to_foil%d
+    rate(:, into_shaft) = to_shaft%d
+  end subroutine point_rates
+
+  !> These without the upwind term. `of_` stands before derivatives by p, h, T and \( T_m \).
+  pure subroutine galerkin_rates(gas, speed, at, part, rate)
+    type(heated_gas_type), intent(in) :: gas
+    real(wp), intent(in) :: speed !! U [m/s]
+    real(wp), intent(in) :: at(variables), part
+    real(wp), intent(out) :: rate(variables, flows)
+    integer, parameter :: by_h = 2
+    type(gas_state_type) :: law
+    real(wp) :: ratio(3), felt, viscosity, entrained, free, open, thick
+    real(wp) :: conductance, exchange, capacity
+    real(wp), dimension(4) :: of_viscosity, of_entrained, of_free, of_open, of_thick, &
+                              of_conductance, of_carried, of_shear, of_moment, of_exchange
+
+    associate (p => at(1), p_x => at(2), p_z => at(3), h => at(4), t => at(7), foil => at(10), &
+               shaft => at(13))
+      law = gas_state(gas%law, p)
+      felt = (1.0_wp - part)*gas%reference + part*t
+      ratio = relative_viscosity(gas, (1.0_wp - part)*gas%reference &
+                                 + part*mean_over_gap(t, foil, shaft))
+      associate (factor_rate => part*ratio(2)/ratio(1), felt_rate => part/felt)
+        viscosity = law%mu*ratio(1)
+        of_viscosity = [law%mu_p*ratio(1), 0.0_wp, 0.0_wp, viscosity*factor_rate]
+        entrained = law%r*(gas%reference/felt)
+        of_entrained = [law%r_p*(gas%reference/felt), 0.0_wp, -entrained*felt_rate, 0.0_wp]
+        free = (gas%law%mean_free_path*gas%law%ambient_pressure)*ratio(1)*sqrt(felt/gas%reference)/p
+        of_free = free*[-1.0_wp/p, 0.0_wp, 0.5_wp*felt_rate, factor_rate]
+      end associate
+      open = h + 6.0_wp*free
+      of_open = 6.0_wp*of_free
+      of_open(by_h) = 1.0_wp
+      thick = h + 2.0_wp*free
+      of_thick = 2.0_wp*of_free
+      of_thick(by_h) = 1.0_wp
+      conductance = entrained*h*h*open/(12.0_wp*viscosity)
+      of_conductance = conductance*(of_entrained/entrained + of_open/open - of_viscosity/viscosity)
+      of_conductance(by_h) = of_conductance(by_h) + 2.0_wp*conductance/h
+      of_carried = (h*speed)*of_entrained
+      of_carried(by_h) = speed*entrained
+      of_shear = (2.0_wp*speed)**2/thick*(of_viscosity - viscosity/thick*of_thick)
+      of_shear(by_h) = of_shear(by_h) + speed*p_x
+      of_exchange = of_viscosity/h
+      of_exchange(by_h) = -viscosity/h**2
+      of_moment = -(2.0_wp/3.0_wp*speed**2)*of_exchange
+      of_moment(by_h) = of_moment(by_h) + speed/3.0_wp*p_x
+      exchange = viscosity*(gas%specific_heat/gas%prandtl)/h
+      of_exchange = (gas%specific_heat/gas%prandtl)*of_exchange
+      rate = 0.0_wp
+      call put_rates(of_conductance*p_x - of_carried, rate(:, flux_along))
+      rate(2, flux_along) = conductance
+      call put_rates(of_conductance*p_z, rate(:, flux_across))
+      rate(3, flux_across) = conductance
+      call put_rates(of_exchange*(8.0_wp*t - (19.0_wp/3.0_wp)*shaft - (5.0_wp/3.0_wp)*foil) &
+                     + of_moment, rate(:, into_shaft))
+      rate([7, 10, 13], into_shaft) = rate([7, 10, 13], into_shaft) &
+        + exchange*[8.0_wp, -5.0_wp/3.0_wp, -19.0_wp/3.0_wp]
+      rate(2, into_shaft) = h*speed/3.0_wp
+      call put_rates(of_exchange*(4.0_wp*t - (5.0_wp/3.0_wp)*shaft - (7.0_wp/3.0_wp)*foil) &
+                     - of_moment, rate(:, into_foil))
+      rate([7, 10, 13], into_foil) = rate([7, 10, 13], into_foil) &
+        + exchange*[4.0_wp, -7.0_wp/3.0_wp, -5.0_wp/3.0_wp]
+      rate(2, into_foil) = -h*speed/3.0_wp
+      call put_rates(-of_shear, rate(:, into_gas))
+      rate(2, into_gas) = -h*speed
+      capacity = -gas%density*gas%specific_heat
+      associate (t_x => at(8), t_z => at(9))
+        rate(:, into_gas) = rate(:, into_gas) + rate(:, into_shaft) + rate(:, into_foil) &
+          + capacity*(t_x*rate(:, flux_along) + t_z*rate(:, flux_across))
+      end associate
+      rate(8, into_gas) = capacity*(conductance*p_x - entrained*h*speed)
+      rate(9, into_gas) = capacity*(conductance*p_z)
+    end associate
+  end subroutine galerkin_rates
+
+  !> Derivatives by p, h, T and \( T_m \) as those by the variables of a point.
+  pure subroutine put_rates(by, rate)
+    real(wp), intent(in) :: by(4)
+    real(wp), intent(inout) :: rate(variables)
+
+    rate(1) = by(1)
+    rate(4) = by(2)
+    rate(7) = by(3) + by(4)
+    rate(10) = by(4)/6.0_wp
+    rate(13) = -by(4)/6.0_wp
+  end subroutine put_rates
 
   !> Fluxes of mass along x and z as the residual has them [Pa m2/s], heat that the gas takes less
   !> what it gets, heat into the walls, power of the drag [W/m2].

@@ -10,6 +10,7 @@ module gfb_film_heat
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_heated_film, only: heated_state_type, heated_residual, heated_rows, row_mass, row_energy, row_foil, row_shaft, &
                              field_pressure, field_gap, field_gas, field_foil, field_shaft, wall_given, wall_conductance
+  use gfb_film_flow, only: film_flow_type
   use gfb_bearing_heat, only: film_heat_type, row_of
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
@@ -17,7 +18,7 @@ module gfb_film_heat
   implicit none (type)
   private
   public :: add_shaft_flux, heat_flows, add_heat_flows, state_of, shaft_places, channel_places, feed, is_leading, is_trailing
-  public :: equations_of, element_rows, element_walls, exchange_matrix, nodal_areas, slits_of, pad_after ! for the derivatives
+  public :: element_walls, exchange_matrix, nodal_areas, slits_of, pad_after ! for the derivatives
 
   !> How gas mixes in the slit before a pad: its rise over ambient times `flow` is what is `carried` there. With nothing to feed
   !> it is ambient gas; with more from the pad before than it takes it has that gas' temperature.
@@ -28,16 +29,6 @@ module gfb_film_heat
     real(wp) :: by_inflow = 0.0_wp  !! change of `flow` by what enters the pad [1]
     real(wp) :: by_outflow = 0.0_wp !! by what leaves the one before [1]
   end type slit_type
-
-  !> Positions of an element's equations among those that it adds to.
-  type, public :: equations_type
-    integer, allocatable :: of_film(:, :)     !! (nodes, rows) those of film and walls, see `heated_rows`
-    integer, allocatable :: channel(:)        !! (nodes)
-    integer :: sleeve = 0
-    integer, allocatable :: walls(:)          !! foil, shaft, channel, sleeve, as `exchange_matrix` has them
-    integer :: slit = 0, next_slit = 0        !! mixing before its pad, and before the next one
-    integer :: count = 0
-  end type equations_type
 
 contains
 
@@ -61,18 +52,19 @@ contains
     real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
     real(wp), intent(in) :: gap(:) !! at the pad's nodes [m]
     type(heated_state_type) :: state
-    integer :: n
+    integer :: b
 
-    n = size(pad%film%shape, 1)
-    associate (nodes => pad%film%element_nodes(:, element))
-      state%field(:n, field_pressure) = unknown(pad%first + nodes)
-      state%field(:n, field_gap) = gap(nodes)
-      state%field(:n, field_gas) = unknown(heat%place_of_gas(pad%number, nodes))
-      state%field(:n, field_foil) = unknown(heat%place_of_foil(pad%number, nodes))
-      state%field(:n, field_shaft) = unknown(shaft_places(heat, pad, nodes))
-      state%excess = pad%film%excess(element, point)
-      state%part = point%growth
+    associate (nodes => pad%film%element_nodes(:, element), row => pad%whole%rows())
+      do b = 1, size(nodes)
+        state%field(b, field_pressure) = unknown(pad%first + nodes(b))
+        state%field(b, field_gap) = gap(nodes(b))
+        state%field(b, field_gas) = unknown(heat%place_of_gas(pad%number, nodes(b)))
+        state%field(b, field_foil) = unknown(heat%place_of_foil(pad%number, nodes(b)))
+        state%field(b, field_shaft) = unknown(heat%place_of_shaft(row_of(pad%mesh%mesh_node(nodes(b)), row)))
+      end do
     end associate
+    state%excess = pad%film%excess(element, point)
+    state%part = point%growth
   end function state_of
 
   !> Local unknowns of the bearing: the shaft's temperature as nodes see it.
@@ -102,26 +94,24 @@ contains
     integer, intent(in) :: element
     real(wp) :: matrix(3*size(pad%film%shape, 1) + 1, 3*size(pad%film%shape, 1) + 1)
     real(wp), dimension(size(pad%film%shape, 1), size(pad%film%shape, 1)) :: mass, slopes, along, carried
-    integer :: i, b, n
+    integer :: i, b, c, n
 
     n = size(mass, 1)
     mass = 0.0_wp
     slopes = 0.0_wp
-    along = 0.0_wp
-    carried = 0.0_wp
-    associate (geometry => pad%film%geometry(element))
+    associate (geometry => pad%film%geometry(element), shape => pad%film%shape)
       do i = 1, n
-        associate (shape => pad%film%shape(:, i), x => geometry%gradient(1, :, i), z => geometry%gradient(2, :, i), &
-                   area => geometry%area(i))
-          do b = 1, n
-            mass(:, b) = mass(:, b) + area*shape(b)*shape
-            slopes(:, b) = slopes(:, b) + area*(x(b)*x + z(b)*z)
-            along(:, b) = along(:, b) + area*z(b)*z
-            carried(:, b) = carried(:, b) + area/geometry%stretch(i)*z(b)*shape ! all around the axis it is one gas
-          end do
-        end associate
+        do b = 1, n
+          associate (weight => geometry%area(i)*shape(b, i), x => geometry%gradient(1, b, i), z => geometry%gradient(2, b, i))
+            do c = 1, n
+              mass(c, b) = mass(c, b) + weight*shape(c, i)
+              slopes(c, b) = slopes(c, b) + geometry%area(i)*(x*geometry%gradient(1, c, i) + z*geometry%gradient(2, c, i))
+            end do
+          end associate
+        end do
       end do
     end associate
+    if (heat%shafts > 1 .or. heat%channels > 0) call find_axial(pad, element, along, carried)
     matrix = 0.0_wp
     associate (copies => pad%film%copies, last => 3*n + 1)
       matrix(:n, :n) = heat%sheet_conductance*slopes + (heat%bumps + heat%channel)*mass
@@ -142,50 +132,97 @@ contains
     end associate
   end function exchange_matrix
 
-  !> Positions of an element's equations.
-  pure function equations_of(nodes) result(row)
-    integer, intent(in) :: nodes !! of the element
-    type(equations_type) :: row
-    integer :: i
-
-    row%of_film = reshape([(i, i=1, heated_rows*nodes)], [nodes, heated_rows])
-    row%channel = heated_rows*nodes + [(i, i=1, nodes)]
-    row%sleeve = heated_rows*nodes + nodes + 1
-    row%walls = [row%of_film(:, row_foil), row%of_film(:, row_shaft), row%channel, row%sleeve]
-    row%slit = row%sleeve + 1
-    row%next_slit = row%slit + 1
-    row%count = row%next_slit
-  end function equations_of
-
-  !> Local unknowns whose equations an element adds to, but for those of slits; 0 where a temperature is given.
-  pure function element_rows(heat, pad, element, row) result(equation)
+  !> Its product with their temperatures, by sums over the points [W].
+  pure function exchange(heat, pad, element, temperature) result(heat_flow)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pad
     integer, intent(in) :: element
-    type(equations_type), intent(in) :: row
-    integer :: equation(row%sleeve)
+    real(wp), intent(in) :: temperature(:) !! of foil, shaft, channel, sleeve [K]
+    real(wp) :: heat_flow(size(temperature))
+    real(wp) :: foil, foil_x, foil_z, shaft_z, gas, gas_z, to_sleeve, to_gas, from_sleeve
+    integer :: i, b, n
 
-    associate (nodes => pad%film%element_nodes(:, element))
-      equation(row%of_film(:, row_mass)) = pad%first + nodes
-      equation(row%of_film(:, row_energy)) = heat%place_of_gas(pad%number, nodes)
-      equation(row%of_film(:, row_foil)) = merge(heat%place_of_foil(pad%number, nodes), 0, heat%sheet)
-      equation(row%of_film(:, row_shaft)) = merge(0, shaft_places(heat, pad, nodes), heat%shaft%kind == wall_given)
-      equation(row%channel) = merge(channel_places(heat, pad, nodes), 0, heat%channels > 0)
-      equation(row%sleeve) = merge(0, heat%place_of_sleeve(), heat%sleeve%kind == wall_given)
+    n = size(pad%film%shape, 1)
+    heat_flow = 0.0_wp
+    associate (geometry => pad%film%geometry(element), copies => pad%film%copies, shape => pad%film%shape, sleeve => temperature(3*n + 1))
+      do i = 1, n
+        foil = 0.0_wp
+        foil_x = 0.0_wp
+        foil_z = 0.0_wp
+        do b = 1, n
+          foil = foil + shape(b, i)*temperature(b)
+          ! Less one node's value: what is even has no gradient to the last digit.
+          foil_x = foil_x + geometry%gradient(1, b, i)*(temperature(b) - temperature(1))
+          foil_z = foil_z + geometry%gradient(2, b, i)*(temperature(b) - temperature(1))
+        end do
+        to_sleeve = geometry%area(i)*heat%bumps*(foil - sleeve)
+        to_gas = 0.0_wp
+        if (heat%channels > 0) then
+          gas = dot_product(shape(:, i), temperature(2*n + 1:3*n))
+          gas_z = dot_product(geometry%gradient(2, :, i), temperature(2*n + 1:3*n) - temperature(2*n + 1))
+          to_gas = geometry%area(i)*heat%channel*(foil - gas)
+          from_sleeve = geometry%area(i)*heat%channel_sleeve*(sleeve - gas)
+          ! All around the axis it is one gas.
+          heat_flow(2*n + 1:3*n) = heat_flow(2*n + 1:3*n) + copies*shape(:, i)* &
+            (geometry%area(i)/geometry%stretch(i)*heat%cooling/heat%arc*gas_z - to_gas - from_sleeve)
+          heat_flow(3*n + 1) = heat_flow(3*n + 1) - copies*from_sleeve
+        end if
+        associate (along => geometry%area(i)*heat%sheet_conductance)
+          do b = 1, n
+            heat_flow(b) = heat_flow(b) + along*(foil_x*geometry%gradient(1, b, i) + foil_z*geometry%gradient(2, b, i)) &
+              + (to_sleeve + to_gas)*shape(b, i)
+          end do
+        end associate
+        heat_flow(3*n + 1) = heat_flow(3*n + 1) + copies*to_sleeve
+        if (heat%shafts > 1) then
+          shaft_z = dot_product(geometry%gradient(2, :, i), temperature(n + 1:2*n) - temperature(n + 1))
+          heat_flow(n + 1:2*n) = heat_flow(n + 1:2*n) &
+            - copies*heat%fin/heat%arc*geometry%area(i)*shaft_z*geometry%gradient(2, :, i)
+        end if
+      end do
     end associate
-  end function element_rows
+  end function exchange
+
+  !> What conducts along the axis on an element, and what a gas that flows there carries.
+  pure subroutine find_axial(pad, element, along, carried)
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: element
+    real(wp), intent(out) :: along(:, :)   !! of a line [1]
+    real(wp), intent(out) :: carried(:, :) !! [m]
+    integer :: i, b
+
+    along = 0.0_wp
+    carried = 0.0_wp
+    associate (geometry => pad%film%geometry(element))
+      do i = 1, size(along, 1)
+        associate (shape => pad%film%shape(:, i), z => geometry%gradient(2, :, i), area => geometry%area(i))
+          do b = 1, size(along, 2)
+            along(:, b) = along(:, b) + area*z(b)*z
+            carried(:, b) = carried(:, b) + area/geometry%stretch(i)*z(b)*shape ! all around the axis it is one gas
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine find_axial
 
   !> Local unknowns that foil, shaft, channel and sleeve of an element have, in the order of its exchange matrix.
   pure function element_walls(heat, pad, element) result(place)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pad
     integer, intent(in) :: element
-    integer :: place(3*size(pad%film%shape, 1) + 1)
+    integer :: place(3*size(pad%film%shape, 1) + 1), b, n, row
 
-    associate (nodes => pad%film%element_nodes(:, element))
-      place = [heat%place_of_foil(pad%number, nodes), shaft_places(heat, pad, nodes), channel_places(heat, pad, nodes), &
-               heat%place_of_sleeve()]
+    n = size(pad%film%shape, 1)
+    associate (nodes => pad%film%element_nodes(:, element), rows => pad%whole%rows())
+      do b = 1, n
+        place(b) = heat%place_of_foil(pad%number, nodes(b))
+        row = row_of(pad%mesh%mesh_node(nodes(b)), rows)
+        place(n + b) = heat%place_of_shaft(row)
+        place(2*n + b) = heat%first_wall + 1
+        if (heat%channels > 0) place(2*n + b) = heat%place_of_channel(row)
+      end do
     end associate
+    place(3*n + 1) = heat%place_of_sleeve()
   end function element_walls
 
   !> Adds what the elements of this rank say of film and heat. What flows over the edges follows from the sum of all ranks, see
@@ -194,32 +231,34 @@ contains
     class(bearing_type), intent(in) :: bearing !! with heat
     type(bearing_state_type), intent(in) :: state !! of it
     real(wp), intent(inout) :: residual(:) !! one a local unknown [SI]
-    type(equations_type) :: row
     real(wp) :: share(size(bearing%pad(1)%film%shape, 1), heated_rows), exchanged(3*size(share, 1) + 1)
-    real(wp), allocatable :: value(:)
-    integer, allocatable :: equation(:)
-    integer :: i, element, k
+    type(film_flow_type) :: flow
+    integer :: i, element, b, n
 
-    row = equations_of(size(share, 1))
-    allocate (value(row%sleeve), equation(row%sleeve))
+    n = size(share, 1)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), film => bearing%pad(i)%film, heat => bearing%heat, unknown => state%unknown)
+        flow = film%flow_at(state%point)
         do element = 1, size(film%element_nodes, 2)
-          call heated_residual(film%geometry(element), film%flow_at(state%point), heat%gas, &
+          call heated_residual(film%geometry(element), flow, heat%gas, &
                                state_of(heat, pad, element, state%point, unknown, state%gap(pad%first_node + 1:pad%last_node)), share)
-          equation = element_rows(heat, pad, element, row)
-          exchanged = matmul(exchange_matrix(heat, pad, element), unknown(element_walls(heat, pad, element)))
-          value(row%walls) = exchanged
-          associate (mass => row%of_film(:, row_mass), energy => row%of_film(:, row_energy), foil => row%of_film(:, row_foil), &
-                     shaft => row%of_film(:, row_shaft))
-            value(mass) = share(:, row_mass)
-            value(energy) = share(:, row_energy)
-            value(foil) = value(foil) - share(:, row_foil)
-            value(shaft) = value(shaft) + film%copies*share(:, row_shaft)
+          associate (place => element_walls(heat, pad, element))
+            exchanged = exchange(heat, pad, element, unknown(place))
+            exchanged(:n) = exchanged(:n) - share(:, row_foil)
+            exchanged(n + 1:2*n) = exchanged(n + 1:2*n) + film%copies*share(:, row_shaft)
+            do b = 1, n
+              associate (node => film%element_nodes(b, element))
+                residual(pad%first + node) = residual(pad%first + node) + share(b, row_mass)
+                associate (gas => heat%place_of_gas(i, node))
+                  residual(gas) = residual(gas) + share(b, row_energy)
+                end associate
+              end associate
+              if (heat%sheet) residual(place(b)) = residual(place(b)) + exchanged(b)
+              if (heat%shaft%kind /= wall_given) residual(place(n + b)) = residual(place(n + b)) + exchanged(n + b)
+              if (heat%channels > 0) residual(place(2*n + b)) = residual(place(2*n + b)) + exchanged(2*n + b)
+            end do
+            if (heat%sleeve%kind /= wall_given) residual(place(3*n + 1)) = residual(place(3*n + 1)) + exchanged(3*n + 1)
           end associate
-          do k = 1, size(equation) ! some are the same
-            if (equation(k) > 0) residual(equation(k)) = residual(equation(k)) + value(k)
-          end do
           if (heat%softens()) then
             associate (mean => heat%place_of_mean(i), foil => heat%place_of_foil(i, film%element_nodes(:, element)))
               residual(mean) = residual(mean) + dot_product(nodal_areas(pad, element), unknown(foil) - unknown(mean))
@@ -245,12 +284,14 @@ contains
     real(wp), intent(inout) :: flux(:) !! at the pressures among the local unknowns [W]
     real(wp), intent(inout) :: area(:) !! the same [m2]
     real(wp) :: share(size(bearing%pad(1)%film%shape, 1), heated_rows)
+    type(film_flow_type) :: flow
     integer :: i, element
 
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), film => bearing%pad(i)%film, heat => bearing%heat)
+        flow = film%flow_at(state%point)
         do element = 1, size(film%element_nodes, 2)
-          call heated_residual(film%geometry(element), film%flow_at(state%point), heat%gas, &
+          call heated_residual(film%geometry(element), flow, heat%gas, &
                                state_of(heat, pad, element, state%point, state%unknown, state%gap(pad%first_node + 1:pad%last_node)), &
                                share)
           associate (place => pad%first + film%element_nodes(:, element))

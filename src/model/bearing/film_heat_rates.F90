@@ -6,26 +6,46 @@ module gfb_film_heat_rates
   use gfb_petsc_kinds, only: pint
   use gfb_heated_film, only: heated_jacobian, heated_rows, heated_fields, row_mass, row_energy, row_foil, row_shaft, &
                              field_pressure, field_gap, field_gas, field_foil, field_shaft, wall_given, wall_conductance
+  use gfb_film_geometry, only: most_film_nodes
+  use gfb_film_surface, only: shaft_coordinates
   use gfb_bearing_heat, only: film_heat_type, moduli_at
   use gfb_pad, only: pad_type
   use gfb_bearing, only: bearing_type, bearing_state_type
-  use gfb_film_heat, only: slit_type, equations_type, equations_of, element_rows, element_walls, exchange_matrix, nodal_areas, &
-                           slits_of, pad_after, state_of, feed, is_leading, is_trailing
+  use gfb_film_heat, only: slit_type, element_walls, exchange_matrix, nodal_areas, slits_of, pad_after, state_of, feed, is_leading, &
+                           is_trailing
   implicit none (type)
   private
   public :: add_heat_jacobian
 
+  !> Positions of an element's equations among those that it adds to: first those of its nodes, behind them those of walls.
+  type :: equations_type
+    integer, allocatable :: of_film(:, :) !! (nodes, rows), see `heated_rows`; of one shaft the same for all nodes
+    integer, allocatable :: channel(:)    !! (nodes)
+    integer :: sleeve = 0
+    integer :: slit = 0, next_slit = 0    !! mixing before its pad, and before the next one
+    integer :: nodal = 0                  !! how many are of nodes
+    integer :: count = 0
+  end type equations_type
+
   !> Positions of what an element's equations depend on.
   type :: unknowns_type
     integer, allocatable :: pressure(:), gas(:) !! (nodes)
-    integer, allocatable :: foil(:), shaft(:), channel(:) !! (nodes) temperatures
+    integer, allocatable :: foil(:), shaft(:), channel(:) !! (nodes) temperatures; of one shaft, and of no channel, the same for all
     integer :: sleeve = 0
-    integer, allocatable :: walls(:)          !! these four together
     integer, allocatable :: mover(:)          !! (nodes) what moves the foil, unless it is the pressure itself
-    integer, allocatable :: coordinate(:)     !! of the shaft
     integer :: mean = 0                       !! temperature of the top foil that springs without unknowns follow
-    integer :: count = 0
+    integer :: count = 0                      !! behind the mean are those of the shaft's coordinates
   end type unknowns_type
+
+  !> What moves the gap at the nodes of an element, and how far.
+  type :: gap_moves_type
+    real(wp) :: shaft = 0.0_wp, sleeve = 0.0_wp     !! by the temperature of these, which grow [m/K]
+    real(wp) :: sinking(most_film_nodes) = 0.0_wp   !! see `sinking_of`
+    integer :: mover(most_film_nodes) = 0           !! position of what moves the foil
+    real(wp) :: rate(most_film_nodes) = 0.0_wp      !! by that
+    real(wp) :: motion(shaft_coordinates, most_film_nodes) = 0.0_wp !! by the shaft's coordinates that are unknowns
+    real(wp) :: excess(shaft_coordinates, most_film_nodes) = 0.0_wp !! the same at the points beyond that at the nodes
+  end type gap_moves_type
 
   !> What an element adds to the matrix: the same positions for all elements, local unknowns of the bearing for each.
   type :: element_block_type
@@ -35,6 +55,12 @@ module gfb_film_heat_rates
     integer, allocatable :: unknown(:)  !! local unknown; 0: there is none
     real(wp), allocatable :: value(:, :) !! (unknowns, equations): as PETSc reads it, row by row
   end type element_block_type
+
+  !> Equations of walls, which hold almost all unknowns: put together here, since PETSc looks for the place of each number in them.
+  type :: wall_rows_type
+    real(wp), allocatable :: value(:, :)  !! (local unknowns, walls)
+    logical, allocatable :: coupled(:, :) !! (local unknowns, walls)
+  end type wall_rows_type
 
 contains
 
@@ -47,11 +73,14 @@ contains
     Mat, intent(in) :: matrix !! by the bearing's local numbers
     type(slit_type) :: slit(size(bearing%pad))
     type(element_block_type) :: block
+    type(wall_rows_type) :: walls
     real(wp) :: factor
     integer :: i, element
 
     associate (heat => bearing%heat, pads => bearing%pad)
-      block = element_block(size(pads(1)%film%shape, 1), size(bearing%coordinate))
+      block = element_block(size(pads(1)%film%shape, 1), size(bearing%coordinate), heat%shafts > 1, heat%channels > 0)
+      allocate (walls%value(bearing%local_size(), heat%walls), source=0.0_wp)
+      allocate (walls%coupled(bearing%local_size(), heat%walls), source=.false.)
       if (.not. room) slit = slits_of(heat, pads, state%unknown, flow)
       factor = merge(0.0_wp, 1.0_wp, room)
       do i = 1, size(pads)
@@ -63,48 +92,107 @@ contains
               call put_element(bearing, state, i, element, block)
               call put_edges(bearing, state, i, element, slit, flow, block)
             end if
-            call put_block(matrix, block%equation, block%unknown, block%value)
+            associate (nodal => block%row%nodal)
+              call put_block(matrix, block%equation(:nodal), block%unknown, block%value(:, :nodal))
+            end associate
+            call add_to_walls(heat, block, walls)
             if (heat%softens()) then
               call put_mean(heat, i, pad%film%element_nodes(:, element), factor*nodal_areas(pad, element), matrix)
             end if
           end do
         end associate
       end do
+      call put_walls(heat, walls, matrix)
       call add_flow_rates(heat, pads, slit, factor, flow, matrix)
       if (bearing%last_rank) call add_wall_rates(heat, pads, slit, factor, matrix)
     end associate
   end subroutine add_heat_jacobian
 
+  !> Adds what an element says of walls.
+  pure subroutine add_to_walls(heat, block, walls)
+    type(film_heat_type), intent(in) :: heat
+    type(element_block_type), intent(in) :: block !! of the element
+    type(wall_rows_type), intent(inout) :: walls
+    integer :: i, k
+
+    do i = block%row%nodal + 1, block%row%count
+      if (block%equation(i) == 0) cycle
+      associate (wall => block%equation(i) - heat%first_wall)
+        do k = 1, block%column%count
+          if (block%unknown(k) == 0) cycle
+          walls%value(block%unknown(k), wall) = walls%value(block%unknown(k), wall) + block%value(k, i)
+          walls%coupled(block%unknown(k), wall) = .true.
+        end do
+      end associate
+    end do
+  end subroutine add_to_walls
+
+  !> Puts the rows of walls into the matrix.
+  subroutine put_walls(heat, walls, matrix)
+    type(film_heat_type), intent(in) :: heat
+    type(wall_rows_type), intent(in) :: walls
+    Mat, intent(in) :: matrix
+    integer, allocatable :: column(:)
+    integer :: k, wall
+
+    do wall = 1, heat%walls
+      column = pack([(k, k=1, size(walls%coupled, 1))], walls%coupled(:, wall))
+      call put_block(matrix, [heat%first_wall + wall], column, reshape(walls%value(column, wall), [size(column), 1]))
+    end do
+  end subroutine put_walls
+
+  !> Positions of an element's equations.
+  pure function equations_of(nodes, by_rows) result(row)
+    integer, intent(in) :: nodes !! of the element
+    logical, intent(in) :: by_rows !! the shaft has a temperature a row
+    type(equations_type) :: row
+    integer :: i, shafts
+
+    row%nodal = row_foil*nodes ! mass, energy, foil
+    shafts = merge(nodes, 1, by_rows)
+    row%of_film = reshape([(i, i=1, heated_rows*nodes)], [nodes, heated_rows])
+    if (.not. by_rows) row%of_film(:, row_shaft) = row%nodal + 1
+    row%channel = row%nodal + shafts + [(i, i=1, nodes)]
+    row%sleeve = row%nodal + shafts + nodes + 1
+    row%slit = row%sleeve + 1
+    row%next_slit = row%slit + 1
+    row%count = row%next_slit
+  end function equations_of
+
   !> Positions of what an element's equations depend on.
-  pure function unknowns_of(nodes, coordinates) result(column)
+  pure function unknowns_of(nodes, coordinates, by_rows, cooled) result(column)
     integer, intent(in) :: nodes !! of the element
     integer, intent(in) :: coordinates !! of the shaft, that are unknowns
+    logical, intent(in) :: by_rows !! the shaft has a temperature a row
+    logical, intent(in) :: cooled !! there is a channel
     type(unknowns_type) :: column
-    integer :: i
+    integer :: i, before
 
     associate (at_nodes => [(i, i=1, nodes)])
       column%pressure = at_nodes
-      column%gas = nodes + at_nodes
-      column%foil = 2*nodes + at_nodes
-      column%shaft = 3*nodes + at_nodes
-      column%channel = 4*nodes + at_nodes
-      column%sleeve = 5*nodes + 1
-      column%walls = [column%foil, column%shaft, column%channel, column%sleeve]
-      column%mover = column%sleeve + at_nodes
+      column%mover = nodes + at_nodes
+      column%gas = 2*nodes + 2*at_nodes - 1
+      column%foil = 2*nodes + 2*at_nodes
+      before = 4*nodes
+      column%shaft = before + merge(at_nodes, 1, by_rows)
+      before = before + merge(nodes, 1, by_rows)
+      column%channel = before + merge(at_nodes, 1, cooled)
+      before = before + merge(nodes, 1, cooled)
     end associate
-    column%coordinate = column%sleeve + nodes + [(i, i=1, coordinates)]
-    column%mean = column%sleeve + nodes + coordinates + 1
-    column%count = column%mean
+    column%sleeve = before + 1
+    column%mean = before + 2
+    column%count = column%mean + coordinates
   end function unknowns_of
 
   !> A block for the elements of a bearing.
-  pure function element_block(nodes, coordinates) result(block)
+  pure function element_block(nodes, coordinates, by_rows, cooled) result(block)
     integer, intent(in) :: nodes !! of an element
     integer, intent(in) :: coordinates !! of the shaft, that are unknowns
+    logical, intent(in) :: by_rows, cooled !! see `unknowns_of`
     type(element_block_type) :: block
 
-    block%row = equations_of(nodes)
-    block%column = unknowns_of(nodes, coordinates)
+    block%row = equations_of(nodes, by_rows)
+    block%column = unknowns_of(nodes, coordinates, by_rows, cooled)
     allocate (block%equation(block%row%count), block%unknown(block%column%count), block%value(block%column%count, block%row%count))
   end function element_block
 
@@ -114,23 +202,37 @@ contains
     integer, intent(in) :: number !! of the pad
     integer, intent(in) :: element
     type(element_block_type), intent(inout) :: block
-    integer :: k
+    integer :: place(3*size(bearing%pad(1)%film%shape, 1) + 1), b, k, n
 
-    associate (heat => bearing%heat, pad => bearing%pad(number), foil => bearing%pad(number)%foil, &
-               nodes => bearing%pad(number)%film%element_nodes(:, element), row => block%row, column => block%column)
-      block%equation(:row%sleeve) = element_rows(heat, pad, element, row)
-      where (pad%film%fixed(nodes)) block%equation(row%of_film(:, row_mass)) = 0
-      block%equation([row%slit, row%next_slit]) = 0
-      if (any(is_leading(pad, nodes) .or. is_trailing(pad, nodes))) then
-        block%equation([row%slit, row%next_slit]) = heat%place_of_slit([number, pad_after(bearing%pad, number)])
-      end if
-      block%unknown(column%pressure) = pad%first + nodes
-      block%unknown(column%gas) = heat%place_of_gas(number, nodes)
-      block%unknown(column%walls) = element_walls(heat, pad, element)
-      if (heat%channels == 0) block%unknown(column%channel) = 0
-      block%unknown(column%mover) = merge(0, pad%first + foil%source(nodes), foil%source(nodes) == nodes .or. foil%source(nodes) == 0)
-      block%unknown(column%coordinate) = bearing%first_shaft + [(k, k=1, size(bearing%coordinate))]
+    n = size(bearing%pad(1)%film%shape, 1)
+    associate (heat => bearing%heat, pad => bearing%pad(number), film => bearing%pad(number)%film, foil => bearing%pad(number)%foil, &
+               row => block%row, column => block%column)
+      place = element_walls(heat, pad, element)
+      block%equation = 0
+      block%unknown = 0
+      do b = 1, n
+        associate (node => film%element_nodes(b, element))
+          block%unknown(column%pressure(b)) = pad%first + node
+          block%unknown(column%gas(b)) = heat%place_of_gas(number, node)
+          block%unknown(column%foil(b)) = place(b)
+          block%unknown(column%shaft(b)) = place(n + b)
+          if (heat%channels > 0) block%unknown(column%channel(b)) = place(2*n + b)
+          if (foil%source(node) /= node .and. foil%source(node) /= 0) block%unknown(column%mover(b)) = pad%first + foil%source(node)
+          if (.not. film%fixed(node)) block%equation(row%of_film(b, row_mass)) = pad%first + node
+        end associate
+        block%equation(row%of_film(b, row_energy)) = block%unknown(column%gas(b))
+        if (heat%sheet) block%equation(row%of_film(b, row_foil)) = place(b)
+        if (heat%shaft%kind /= wall_given) block%equation(row%of_film(b, row_shaft)) = place(n + b)
+        if (heat%channels > 0) block%equation(row%channel(b)) = place(2*n + b)
+      end do
+      block%unknown(column%sleeve) = place(3*n + 1)
+      if (heat%sleeve%kind /= wall_given) block%equation(row%sleeve) = place(3*n + 1)
       block%unknown(column%mean) = mean_of(heat, pad)
+      block%unknown(column%mean + 1:) = bearing%first_shaft + [(k, k=1, size(bearing%coordinate))]
+      if (any(is_leading(pad, film%element_nodes(:, element)) .or. is_trailing(pad, film%element_nodes(:, element)))) then
+        block%equation(row%slit) = heat%place_of_slit(number)
+        block%equation(row%next_slit) = heat%place_of_slit(pad_after(bearing%pad, number))
+      end if
     end associate
   end subroutine place_block
 
@@ -183,42 +285,102 @@ contains
     integer, intent(in) :: element
     type(element_block_type), intent(inout) :: block !! zero before
     real(wp) :: by(size(bearing%pad(1)%film%shape, 1), heated_rows, size(bearing%pad(1)%film%shape, 1), heated_fields)
-    real(wp) :: by_excess(size(by, 1), heated_rows, size(by, 1)), factor(heated_rows), sinking(size(by, 1))
-    integer :: k, b, c, mover
+    real(wp) :: by_excess(size(by, 1), heated_rows, size(by, 1)), factor(heated_rows)
+    type(gap_moves_type) :: moves
+    integer :: k, a
 
-    associate (heat => bearing%heat, pad => bearing%pad(number), film => bearing%pad(number)%film, foil => bearing%pad(number)%foil, &
-               nodes => bearing%pad(number)%film%element_nodes(:, element), column => block%column, growth => state%point%growth)
-      sinking = sinking_of(bearing, state, number, nodes)
+    factor = 1.0_wp
+    factor(row_foil) = -1.0_wp
+    associate (heat => bearing%heat, pad => bearing%pad(number), film => bearing%pad(number)%film, row => block%row)
+      factor(row_shaft) = film%copies
       call heated_jacobian(film%geometry(element), film%flow_at(state%point), heat%gas, &
                            state_of(heat, pad, element, state%point, state%unknown, state%gap(pad%first_node + 1:pad%last_node)), by, by_excess)
-      block%value(column%walls, block%row%walls) = transpose(exchange_matrix(heat, pad, element))
-      factor = 1.0_wp
-      factor(row_foil) = -1.0_wp
-      factor(row_shaft) = film%copies
+      call put_exchange(exchange_matrix(heat, pad, element), block)
+      moves = moves_of_gap(bearing, state, number, element, block%column)
       do k = 1, heated_rows
-        by(:, k, :, :) = factor(k)*by(:, k, :, :)
-        associate (part => block%value(:, block%row%of_film(1, k):block%row%of_film(size(by, 1), k)), by_gap => by(:, k, :, field_gap))
-          part(column%pressure, :) = part(column%pressure, :) + transpose(by(:, k, :, field_pressure))
-          part(column%gas, :) = part(column%gas, :) + transpose(by(:, k, :, field_gas))
-          part(column%foil, :) = part(column%foil, :) + transpose(by(:, k, :, field_foil))
-          part(column%shaft, :) = part(column%shaft, :) + transpose(by(:, k, :, field_shaft) - growth*heat%shaft%growth*by_gap)
-          part(column%sleeve, :) = part(column%sleeve, :) + growth*heat%sleeve%growth*sum(by_gap, 2)
-          part(column%mean, :) = matmul(by_gap, sinking)
-          part(column%sleeve, :) = part(column%sleeve, :) + matmul(by_gap, sinking)
-          do b = 1, size(nodes)
-            mover = merge(column%pressure(b), column%mover(b), foil%source(nodes(b)) == nodes(b)) ! of springs the pressure itself
-            part(mover, :) = part(mover, :) + foil%rate(nodes(b))*by_gap(:, b)
-            do c = 1, size(bearing%coordinate)
-              associate (at => column%coordinate(c), coordinate => bearing%coordinate(c))
-                part(at, :) = part(at, :) + film%motion(coordinate, nodes(b))*by_gap(:, b) &
-                  + film%motion_excess(coordinate, b, element)*factor(k)*by_excess(:, k, b)
-              end associate
-            end do
+        do a = 1, size(by, 1)
+          call put_row(size(by, 1), block%column, moves, factor(k)*by(a, k, :, :), factor(k)*by_excess(a, k, :), &
+                       block%value(:, row%of_film(a, k)))
+        end do
+      end do
+    end associate
+  end subroutine put_element
+
+  !> What moves the gap at the nodes of an element.
+  pure function moves_of_gap(bearing, state, number, element, column) result(moves)
+    class(bearing_type), intent(in) :: bearing
+    type(bearing_state_type), intent(in) :: state
+    integer, intent(in) :: number !! of the pad
+    integer, intent(in) :: element
+    type(unknowns_type), intent(in) :: column
+    type(gap_moves_type) :: moves
+    integer :: b, c, n
+
+    n = size(bearing%pad(number)%film%shape, 1)
+    associate (heat => bearing%heat, film => bearing%pad(number)%film, foil => bearing%pad(number)%foil)
+      moves%shaft = -state%point%growth*heat%shaft%growth
+      moves%sleeve = state%point%growth*heat%sleeve%growth
+      moves%sinking(:n) = sinking_of(bearing, state, number, film%element_nodes(:, element))
+      do b = 1, n
+        associate (node => film%element_nodes(b, element))
+          moves%mover(b) = merge(column%pressure(b), column%mover(b), foil%source(node) == node) ! of springs the pressure itself
+          moves%rate(b) = foil%rate(node)
+          do c = 1, size(bearing%coordinate)
+            moves%motion(c, b) = film%motion(bearing%coordinate(c), node)
+            moves%excess(c, b) = film%motion_excess(bearing%coordinate(c), b, element)
           end do
         end associate
       end do
     end associate
-  end subroutine put_element
+  end function moves_of_gap
+
+  !> Adds the derivatives of one equation of an element: by its fields, and by what moves its gap.
+  pure subroutine put_row(nodes, column, moves, by, by_excess, line)
+    integer, intent(in) :: nodes
+    type(unknowns_type), intent(in) :: column
+    type(gap_moves_type), intent(in) :: moves
+    real(wp), intent(in) :: by(nodes, heated_fields)
+    real(wp), intent(in) :: by_excess(nodes) !! by that of the gap at the points
+    real(wp), intent(inout) :: line(column%count)
+    real(wp) :: grown, sunk
+    integer :: b, c
+
+    grown = 0.0_wp
+    sunk = 0.0_wp
+    do b = 1, nodes
+      associate (by_gap => by(b, field_gap))
+        line(column%pressure(b)) = line(column%pressure(b)) + by(b, field_pressure)
+        line(column%gas(b)) = line(column%gas(b)) + by(b, field_gas)
+        line(column%foil(b)) = line(column%foil(b)) + by(b, field_foil)
+        line(column%shaft(b)) = line(column%shaft(b)) + by(b, field_shaft) + moves%shaft*by_gap
+        line(moves%mover(b)) = line(moves%mover(b)) + moves%rate(b)*by_gap
+        grown = grown + moves%sleeve*by_gap
+        sunk = sunk + moves%sinking(b)*by_gap
+        do c = 1, column%count - column%mean
+          line(column%mean + c) = line(column%mean + c) + moves%motion(c, b)*by_gap + moves%excess(c, b)*by_excess(b)
+        end do
+      end associate
+    end do
+    line(column%sleeve) = line(column%sleeve) + grown + sunk
+    line(column%mean) = line(column%mean) + sunk
+  end subroutine put_row
+
+  !> Adds what foil, shaft, channel and sleeve exchange on an element.
+  pure subroutine put_exchange(exchange, block)
+    real(wp), intent(in) :: exchange(:, :) !! see `exchange_matrix`
+    type(element_block_type), intent(inout) :: block
+    integer :: place(size(exchange, 1)), equation(size(exchange, 1)), i, k
+
+    associate (row => block%row, column => block%column)
+      place = [column%foil, column%shaft, column%channel, column%sleeve]
+      equation = [row%of_film(:, row_foil), row%of_film(:, row_shaft), row%channel, row%sleeve]
+    end associate
+    do i = 1, size(equation)
+      do k = 1, size(place)
+        block%value(place(k), equation(i)) = block%value(place(k), equation(i)) + exchange(i, k)
+      end do
+    end do
+  end subroutine put_exchange
 
   !> What flows over edges changes with the mass equations of their nodes, which stand in the block.
   pure subroutine put_edges(bearing, state, number, element, slit, flow, block)

@@ -8,6 +8,7 @@ module gfb_heat_answer
                              field_foil, field_gap, field_shaft
   use gfb_bearing_heat, only: film_heat_type, growth_of, moduli_at
   use gfb_gap_part, only: shift_of
+  use gfb_film_flow, only: film_flow_type
   use gfb_film_heat, only: state_of, channel_places, feed, is_leading, is_trailing
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
@@ -120,28 +121,30 @@ contains
     real(wp), intent(out) :: most(:)      !! temperatures of film and top foil [K]
     type(heated_state_type) :: state
     real(wp) :: share(size(pad%film%shape, 1), heated_rows), weight(size(pad%film%shape, 1)), growth(size(gap))
-    real(wp), allocatable :: mean(:), foil(:), channel(:)
+    real(wp), dimension(size(share, 1)) :: mean, foil, channel
+    type(film_flow_type) :: here
     integer :: element, node, n
 
     n = size(share, 1)
     sum_of = 0.0_wp
     most = 0.0_wp
     growth = growth_of(heat, pad%mesh%mesh_node, pad%whole%rows(), point, unknown)
+    here = pad%film%flow_at(point)
+    channel = heat%cooling_temperature
     associate (film => pad%film, sleeve => unknown(heat%place_of_sleeve()))
       do element = 1, size(film%element_nodes, 2)
         associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
           state = state_of(heat, pad, element, point, unknown, gap)
-          call heated_residual(geometry, film%flow_at(point), heat%gas, state, share)
+          call heated_residual(geometry, here, heat%gas, state, share)
           foil = state%field(:n, field_foil)
           mean = mean_over_gap(state%field(:n, field_gas), foil, state%field(:n, field_shaft))
-          channel = spread(heat%cooling_temperature, 1, n)
           if (heat%channels > 0) channel = unknown(channel_places(heat, pad, nodes))
           weight = film%copies*matmul(film%shape, geometry%area)
           associate (gas => film%copies*matmul(film%shape, geometry%area*(matmul(state%field(:n, field_gap), film%shape) + state%excess(:n))))
             sum_of(:3) = sum_of(:3) + [dot_product(gas, mean), sum(gas), sum(weight)]
           end associate
           sum_of(4) = sum_of(4) + dot_product(weight, foil)
-          sum_of(5:7) = sum_of(5:7) + film%copies*[heated_shear(geometry, film%flow_at(point), heat%gas, state, n), &
+          sum_of(5:7) = sum_of(5:7) + film%copies*[heated_shear(geometry, here, heat%gas, state, n), &
                                                    sum(share(:, row_shaft)), sum(share(:, row_foil))]
           sum_of(8) = sum_of(8) + heat%bumps*dot_product(weight, foil - sleeve)
           if (heat%channels > 0) sum_of(9) = sum_of(9) + heat%channel*dot_product(weight, foil - channel)
