@@ -129,7 +129,6 @@ module gfb_bearing
     type(foil_momentum_type) :: momentum   !! inertia of the foils over a step of time, where they have a mass
     type(foil_losses_type) :: losses       !! viscous ones of meshed foils over a step of time, where there are any
     type(foil_dampers_type) :: dampers     !! beside the springs of a foundation over a step of time, where there are any
-    logical :: sparse = .false.            !! factors of the equations without heat stay sparse
     type(bearing_block_type), allocatable :: block(:) !! of equations beside those of the pads
     type(blocks_type) :: blocks            !! of unknowns: film and foil of each pad, fields, scalars; the shaft's are the border
     integer :: unknowns = 0                !! of the bearing, on all ranks

@@ -288,7 +288,7 @@ contains
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
-    bearing%sparse = .not. scene%model%foil%has_shells
+    bearing%plane = .not. scene%model%foil%has_shells
     call create_bearing_system(bearing, foil, floats, scene%operation%moment_given, place)
     if (scene%solver%linear_solver == linear_solver_iterative) call bearing%find_motions()
     call take_film_numbers(scene, bearing)

@@ -82,7 +82,7 @@ contains
     call list_blocks(bearing)
     bearing%term = pad_terms(.not. any(bearing%block%has_film))
     bearing%dense_rows = bearing%floats .or. any(bearing%block%scalars > 0)
-    bearing%low_fill = bearing%sparse .and. .not. any(bearing%block%fields > 0)
+    bearing%low_fill = bearing%plane .and. .not. any(bearing%block%fields > 0)
     call number_unknowns(bearing)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))

@@ -14,6 +14,7 @@ module gfb_nonlinear_system
     Vec :: state    !! x, scaled; owned by the system
     Mat :: jacobian !! df/dx, scaled; owned by the system
     logical :: dense_rows = .false. !! a few equations hold almost all unknowns
+    logical :: plane = .false.      !! unknowns stand at the nodes of a plane mesh
     logical :: low_fill = .false.   !! factors of the matrix stay sparse: a plane mesh with few unknowns a node
     logical :: symmetric = .false.  !! the matrix is, at every state
     logical :: definite = .false.   !! it is positive definite too, and says so to PETSc

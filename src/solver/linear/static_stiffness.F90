@@ -72,7 +72,7 @@ contains
     PetscCallA(KSPCreate(PETSC_COMM_WORLD, linear, ierr))
     PetscCallA(KSPSetOptionsPrefix(linear, 'bearing_', ierr))
     PetscCallA(KSPSetOperators(linear, bearing%jacobian, bearing%jacobian, ierr))
-    call use_factors(linear, 'bearing_', .false., bearing%dense_rows, low_fill=bearing%low_fill, matrix=bearing%jacobian)
+    call use_factors(linear, 'bearing_', .false., bearing%dense_rows, low_fill=bearing%low_fill, matrix=bearing%jacobian, plane=bearing%plane)
     PetscCallA(KSPSetFromOptions(linear, ierr))
   end subroutine create_solver
 

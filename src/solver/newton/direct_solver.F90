@@ -56,7 +56,7 @@ module gfb_direct_solver
 contains
 
   !> Makes a linear solver factor its matrix and do nothing else.
-  subroutine use_factors(linear, prefix, symmetric, dense_rows, is_definite, low_fill, matrix)
+  subroutine use_factors(linear, prefix, symmetric, dense_rows, is_definite, low_fill, matrix, plane)
     KSP, intent(in) :: linear              !! without a type yet
     character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
     logical, intent(in) :: symmetric       !! the matrix is
@@ -64,12 +64,15 @@ contains
     logical, intent(in), optional :: is_definite !! the symmetric matrix is positive definite, and says so
     logical, intent(in), optional :: low_fill !! its factors stay sparse
     Mat, intent(in), optional :: matrix !! then: itself, filled or not
-    logical :: definite, done
+    logical, intent(in), optional :: plane !! its unknowns stand at the nodes of a plane mesh
+    logical :: definite, done, flat
     PC :: factors
     PetscErrorCode :: ierr
 
     definite = .false.
     if (present(is_definite)) definite = is_definite
+    flat = .false.
+    if (present(plane)) flat = plane
     PetscCallA(KSPSetType(linear, KSPPREONLY, ierr))
     PetscCallA(KSPGetPC(linear, factors, ierr))
     if (present(low_fill) .and. present(matrix)) then
@@ -81,9 +84,10 @@ contains
     ! Room for pivoting [%]; of a matrix that is positive definite no pivot is put off.
     call set_option_default('-'//prefix//'mat_mumps_icntl_14', trim(merge('10', '60', definite)))
     call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
-    ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill,
-    ! or PORD where rows are dense.
-    call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge('4', '2', dense_rows))
+    ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill, or PORD where rows are
+    ! dense. Of plane meshes with dense rows the order by degree that sets these aside is found five times faster than PORD's, with
+    ! factors by a tenth of the operations more or less; of shells' these would be a third more.
+    call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge(merge('6', '4', flat), '2', dense_rows))
     call set_option_default('-'//prefix//'mat_mumps_icntl_33', '1') ! the determinant, for its sign
     ! A distributed right side costs MUMPS a collective call for every rank in each solve; one vector on
     ! the first rank is cheaper where ranks are many.

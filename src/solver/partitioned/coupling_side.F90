@@ -58,6 +58,7 @@ contains
     side%bearing => bearing
     side%of_foil = of_foil
     side%dense_rows = bearing%dense_rows .and. .not. of_foil
+    side%plane = bearing%plane
     side%low_fill = bearing%low_fill
     PetscCallA(VecGetOwnershipRange(bearing%state, first, last, ierr))
     allocate (film(0), foil(0))

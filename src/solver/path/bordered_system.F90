@@ -53,6 +53,7 @@ contains
     path%first = bearing%point
     path%last = last
     path%dense_rows = .true.
+    path%plane = bearing%plane
     path%low_fill = bearing%low_fill
     PetscCallA(VecGetLocalSize(bearing%state, owned, ierr))
     call create_border(int(owned), 1, path%border)

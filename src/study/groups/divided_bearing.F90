@@ -43,7 +43,7 @@ contains
     type(pool_type), target, intent(inout) :: pool !! whose groups compute
     integer, intent(out) :: status !! exit status of the program
     class(bearing_study_type), allocatable, target :: study
-    type(run_context_type) :: own
+    type(run_context_type), allocatable :: own
     type(group_result_type), allocatable :: mine, blocks(:)
     type(error_type), allocatable :: error
     real(wp) :: memory(1)
@@ -60,7 +60,7 @@ contains
     pool%total = pool%groups
     pool%counted = 0
     if (scene%sweep%present) pool%total = size(scene%sweep%values)
-    own = context
+    allocate (own, source=context)
     call pool%begin_log(group_log_path(context%folder, scene%name, pool%group), own, error)
     if (.not. allocated(error)) call compute(scene, pool, ends, own, study, mine, error)
     if (allocated(error)) call log_failure(pool, error, mine)
