@@ -86,7 +86,7 @@ contains
     call set_option_default('-'//prefix//'mat_mumps_icntl_8', '0') ! scaled already
     ! Ten times faster to find than MUMPS' own choice, with factors no larger: approximate minimum fill, or PORD where rows are
     ! dense. Of plane meshes with dense rows the order by degree that sets these aside is found five times faster than PORD's, with
-    ! factors by a tenth of the operations more or less; of shells' these would be a third more.
+    ! factors of 0.8 to 1.4 times the operations; of shells' these would be twice as many.
     call set_option_default('-'//prefix//'mat_mumps_icntl_7', merge(merge('6', '4', flat), '2', dense_rows))
     call set_option_default('-'//prefix//'mat_mumps_icntl_33', '1') ! the determinant, for its sign
     ! A distributed right side costs MUMPS a collective call for every rank in each solve; one vector on
