@@ -349,15 +349,17 @@ contains
   end subroutine keep_columns
 
   !> Z of motions \( e^{\lambda t} \), one factorization for those of each symmetry.
-  recursive subroutine find_coefficients(bearing, response, rate, coefficient, found, only_translations)
+  recursive subroutine find_coefficients(bearing, response, rate, coefficient, found, only_translations, keep)
     type(bearing_system_type), intent(in) :: bearing !! as it was when the response was created
     type(dynamic_response_type), intent(inout) :: response !! of it
     complex(wp), intent(in) :: rate !! lambda, i omega for vibrations; with a loss factor for these alone [1/s]
     complex(wp), intent(out) :: coefficient(:, :) !! (force, motion) in the order of the response's motions; 0 by symmetry [SI]
     logical, intent(out) :: found !! all of them; else a matrix cannot be factorized
     logical, intent(in), optional :: only_translations !! tilts are not asked for
+    logical, intent(in), optional :: keep !! factors of all motions stay, for solutions to come; default: one set alone
     complex(wp) :: other(size(coefficient, 1), size(coefficient, 2))
     integer :: i, wanted
+    logical :: keeps
 
     coefficient = 0.0_wp
     found = .false.
@@ -378,7 +380,9 @@ contains
       if (.not. found) error stop 'tilts on half the width are asked of a response without the bearing that they move'
       return
     end if
-    call release_parts(response)
+    keeps = .false.
+    if (present(keep)) keeps = keep
+    if (.not. keeps) call release_parts(response)
     associate (opposite => response%opposite)
       call find_coefficients(response%opposite_bearing, opposite, rate, other, found)
       coefficient(tilts, tilts) = other(tilts, tilts)

@@ -124,7 +124,7 @@ contains
     reach = 0.0_wp
     call skip_inner_modes(response, .true.)
     call find_coefficients(bearing, response, cmplx(shift, 0.0_wp, wp), coefficient, found, &
-                           only_translations=kind == cylindrical)
+                           only_translations=kind == cylindrical, keep=.true.)
     call skip_inner_modes(response, .false.)
     if (.not. found) return
     pencil%shift = shift
