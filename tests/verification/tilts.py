@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
 """Stiffness and damping of all four motions of a journal under every foil, solved on half and on the whole width: against differences
 of the forces and torques of fixed positions, of which a tilted one is always solved on the whole width, against each other, and
-against a rotor that tilts over time.
+against a rotor that tilts over time. Without --long: modes of a rotor on both widths.
 
 A tilt is no mirror image: where half the width is solved, pressures and foils move against those of the other half.
 """
 
 import math
-import tempfile
 
 import numpy
 
 from dynamics import block_error, coefficients
-from gfb_run import Checks, solve
+from gfb_run import run_checks, solve
 from rotor import modes_of, speed_of
 from transient import history, modes_in
 
@@ -100,14 +99,21 @@ def check_march(checks, folder):
                  abs(found - wanted)/omega, 1.0e-5)
 
 
-def main():
-    checks = Checks()
-    with tempfile.TemporaryDirectory() as folder:
-        check_widths(checks, folder)
-        check_ranks(checks, folder)
-        check_march(checks, folder)
-    checks.close()
+def check_modes(checks, folder):
+    """Modes of both kinds of a rotor on half the width, where tilts have foils of their own, are ones of the whole width, which has others of
+    films alone that are against the mirror of the motions."""
+    for foil in ("plates on springs that hold", "shells"):
+        modes = []
+        for width in ("yes", "no"):
+            content = journal(foil, "linear_dynamics", {"load": (-5.0, 1.0)}, dynamics={"frequency_ratios": 0.5}, model={"half_width": width},
+                              rotor={"mass": 0.088} | ROTOR)
+            growth, frequency, _, kind, _ = modes_of(solve(folder, "modes", content))
+            modes.append((growth + 1j*frequency, kind))
+        (half, kinds), (whole, others) = modes
+        checks.that(f"{foil}: modes of both kinds", {1, 2} <= set(kinds))
+        checks.below(f"{foil}: modes on half and whole width", max(abs(whole[others == kind]/rate - 1.0).min() for rate, kind in zip(half, kinds)),
+                     1.0e-7)
 
 
 if __name__ == "__main__":
-    main()
+    run_checks((check_modes,), (check_widths, check_ranks, check_march))
