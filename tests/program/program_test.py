@@ -35,7 +35,7 @@ LONG = """&scene analysis='transient' /
 &gas viscosity=1.95e-5 ambient_pressure=1.0135e5 /
 &operation speed_rpm=30000.0 load=-60.0, 0.0 /
 &rotor mass=1.5 /
-&transient duration=0.25 output_every=1000 /
+&transient duration=2.0 output_every=1000 /
 &unbalance unbalance=1.5e-6 /
 &foil_damping foundation_damping=3.0e5 /
 &model foil='elastic_foundation' foundation_stiffness=4.8243e9 /
