@@ -23,7 +23,6 @@ module gfb_complex_factors
   integer(c_int), parameter :: transposition_control = 9 !! of ICNTL: other than 1 solves with the transposed matrix
   integer, parameter :: limit_control = 23 !! of ICNTL: largest memory of a rank [MB]
   integer, parameter :: no_memory = -13 !! as MUMPS says it
-  integer, parameter :: workspace_too_small = -9, room_too_small = -11 !! MUMPS' own, and one that it was given
   integer, parameter :: controls = 60 !! of MUMPS, that options may set
   integer, parameter :: first_room = 60 !! [%]
 
@@ -236,7 +235,6 @@ contains
     do
       call make_room(self, status)
       if (status >= 0) status = gfb_mumps_run(self%mumps, factor, 0_c_int, c_null_ptr)
-      if (status == room_too_small) status = workspace_too_small
       room = larger_workspace(status, self%room)
       if (room == 0) exit
       call gfb_mumps_control(self%mumps, room_control, int(room, c_int))

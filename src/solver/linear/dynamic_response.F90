@@ -260,6 +260,19 @@ contains
     end do
   end subroutine create_vectors
 
+  !> Frees them.
+  subroutine destroy_vectors(vectors)
+    type(motion_vectors_type), intent(inout) :: vectors
+    integer :: k
+    PetscErrorCode :: ierr
+
+    do k = 1, size(vectors%re)
+      PetscCallA(VecDestroy(vectors%re(k), ierr))
+      PetscCallA(VecDestroy(vectors%im(k), ierr))
+    end do
+    deallocate (vectors%re, vectors%im)
+  end subroutine destroy_vectors
+
   !> Motions of both symmetries on half the width, or all motions at once.
   subroutine create_parts(bearing, response)
     type(bearing_system_type), intent(in) :: bearing
@@ -650,13 +663,8 @@ contains
     end do
     PetscCallA(VecDestroy(response%one, ierr))
     PetscCallA(VecDestroy(response%other, ierr))
-    do i = 1, size(response%motion)
-      PetscCallA(VecDestroy(response%change%re(i), ierr))
-      PetscCallA(VecDestroy(response%change%im(i), ierr))
-      PetscCallA(VecDestroy(response%rise%re(i), ierr))
-      PetscCallA(VecDestroy(response%rise%im(i), ierr))
-    end do
-    deallocate (response%change%re, response%change%im, response%rise%re, response%rise%im)
+    call destroy_vectors(response%change)
+    call destroy_vectors(response%rise)
     call destroy_equations(response%equations)
   end subroutine destroy_response
 end module gfb_dynamic_response

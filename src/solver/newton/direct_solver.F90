@@ -28,7 +28,7 @@ module gfb_direct_solver
   integer, parameter :: few_ranks = 16 !! on which right sides stay distributed
   integer, parameter :: first_room = 100  !! for pivoting, of a workspace that was too small at first [%]
   integer, parameter :: most_room = 2000  !! five times more from `first_room` on, doubled each time [%]
-  integer, parameter :: too_small = -9    !! MUMPS' INFOG(1) where its workspace is
+  integer, parameter :: too_small(2) = [-9, -11] !! MUMPS' INFOG(1) where its workspace is, or one that it was given
   integer, parameter :: no_room = 2       !! instead of INFOG(1): KLU had no memory
   integer, parameter :: status_place = 1  !! in MUMPS' INFOG
   integer, parameter :: room_place = 14   !! in MUMPS' ICNTL
@@ -144,7 +144,7 @@ contains
     character(len=:), allocatable :: words
 
     select case (status)
-    case (-5, -7, -8, too_small, -11, -13, -14, -15, -17, -18, -19, -20) ! allocations and workspaces
+    case (-5, -7, -8, -9, -11, -13, -14, -15, -17, -18, -19, -20) ! allocations and workspaces
       words = 'MUMPS ran out of memory for the factors (INFOG(1) = '//text(status)// &
               "): a coarser mesh, more nodes, linear_solver = 'out_of_core', or 'iterative' for a strip"
     case (no_room)
@@ -228,7 +228,7 @@ contains
 
     room = 0
     call find_failure(linear, status)
-    if (status == too_small) then
+    if (any(status == too_small)) then
       PetscCallA(KSPGetPC(linear, factors, ierr))
       PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
       PetscCallA(MatMumpsGetIcntl(factor, int(room_place, pint), given, ierr))
@@ -258,7 +258,7 @@ contains
     integer, intent(in) :: given  !! room that there was [%]
 
     room = 0
-    if (status == too_small .and. given < most_room/2) room = max(first_room, 2*given)
+    if (any(status == too_small) .and. given < most_room/2) room = max(first_room, 2*given)
   end function larger_workspace
 
   !> Sets an option of PETSc's unless the user has.

@@ -38,7 +38,7 @@ module gfb_limit
     real(wp) :: area = 0.0_wp         !! of the pads of a thrust bearing; 0: it is a journal's [m2]
   contains
     procedure :: value_at, point_with, reserve, room, next_value, aimed_value, is_of_film, results, words, never_within, course
-    procedure, private :: coefficient, left_by_heat
+    procedure, private :: coefficient, left_by_film, left_by_heat
   end type limit_type
 
 contains
@@ -118,7 +118,7 @@ contains
 
     answer = bearing_answer(bearing)
     if (self%is_of_film()) then
-      left = answer%minimum_gap/self%smallest_gap - 1.0_wp
+      left = self%left_by_film(answer%minimum_gap)
       if (self%highest_temperature > 0.0_wp) left = min(left, self%left_by_heat(answer))
     else
       part = contact_part(answer, bearing%point)
@@ -135,8 +135,15 @@ contains
     real(wp) :: of_film !! [1]
 
     of_film = left
-    if (left > 0.0_wp .and. self%highest_temperature > 0.0_wp) of_film = bearing%smallest_gap()/self%smallest_gap - 1.0_wp
+    if (left > 0.0_wp .and. self%highest_temperature > 0.0_wp) of_film = self%left_by_film(bearing%smallest_gap())
   end function room
+
+  !> How far the smallest film is above the one asked for, over that [1].
+  pure real(wp) function left_by_film(self, gap) result(left)
+    class(limit_type), intent(in) :: self !! the limit, of a film
+    real(wp), intent(in) :: gap !! smallest film [m]
+    left = gap/self%smallest_gap - 1.0_wp
+  end function left_by_film
 
   !> How far the hottest place of film and top foil is below the highest temperature, over how far that is above the gas around [1].
   pure real(wp) function left_by_heat(self, answer) result(left)
@@ -280,7 +287,7 @@ contains
     sentence = sentence//', smallest film '//text(answer%minimum_gap*micrometres, 4)//' um'
     if (self%highest_temperature > 0.0_wp) then
       sentence = sentence//', film and top foil at most '//text(hottest_place(answer) - ice_point, 4)//' C'
-      if (self%left_by_heat(answer) < answer%minimum_gap/self%smallest_gap - 1.0_wp) sentence = sentence//': heat decides'
+      if (self%left_by_heat(answer) < self%left_by_film(answer%minimum_gap)) sentence = sentence//': heat decides'
     end if
     if (.not. self%is_of_film()) then
       sentence = sentence//', asperities carry '// &

@@ -24,8 +24,7 @@ module gfb_bearing_plan
   use gfb_bearing_builder, only: film_mesh_of
   use gfb_film_mesh, only: film_mesh_type
   use gfb_units, only: degrees
-  use gfb_foil_builder, only: plate_stations, stations_follow_crests
-  use gfb_foil_plan, only: count_bumps, show_strips, strips_mirror
+  use gfb_foil_plan, only: film_elements, solved_rows, count_bumps, show_strips, strips_mirror
   use gfb_mesh_case, only: linear_solver_out_of_core, linear_solver_iterative
   use gfb_memory_check, only: show_memory
   use gfb_memory_laws, only: film_memory, plate_memory, bearing_memory, study_share, heated_memory
@@ -116,10 +115,7 @@ contains
     integer :: nodes, films, sides
 
     plan%order = scene%model%film_order
-    plan%circumferential = scene%mesh%circumferential_elements
-    if (scene%model%foil%has_bumps .and. stations_follow_crests(scene)) then
-      plan%circumferential = size(plate_stations(scene)) - 1
-    end if
+    plan%circumferential = film_elements(scene)
     plan%axial = scene%mesh%axial_elements
     plan%floats = scene%general%analysis%floats
     call log%heading('what the scene needs')
@@ -140,7 +136,7 @@ contains
                        ' ranks have nothing to do: the pad has '//text(plan%circumferential)// &
                        ' columns of elements to share out')
     end if
-    nodes = (plan%order*plan%circumferential + 1)*solved_rows(plan)
+    nodes = (plan%order*plan%circumferential + 1)*solved_rows(scene, plan%half)
     call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
                   trim(merge(' biquadratic', '            ', &
                              plan%order == film_order_biquadratic))// &
@@ -220,12 +216,6 @@ contains
                   'points of a sweep side by side')
   end subroutine show_few
 
-  !> Rows of nodes in the part of the width that is solved.
-  pure integer function solved_rows(plan) result(rows)
-    type(bearing_plan_type), intent(in) :: plan
-    rows = plan%order*merge(plan%axial/2, plan%axial, plan%half) + 1
-  end function solved_rows
-
   !> Sizes of foils of shells, and their memory.
   subroutine show_foil_sizes(scene, films, nodes, plan, log)
     type(scene_type), intent(in) :: scene
@@ -237,7 +227,7 @@ contains
     real(wp) :: unknowns
     logical :: reduced
 
-    rows = solved_rows(plan)
+    rows = solved_rows(scene, plan%half)
     reduced = scene%model%reduction == reduction_guyan
     call count_bumps(scene, rows, reduced, stations, unknowns)
     plan%memory = films*bearing_memory(nodes, unknowns, rows, reduced, scene%solver%linear_solver)

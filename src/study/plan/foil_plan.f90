@@ -20,7 +20,8 @@ module gfb_foil_plan
   use gfb_foil_builder, only: foil_plan_type, plate_stations, stations_follow_crests
   implicit none (type, external)
   private
-  public :: plan_foil, choose_solution, count_bumps, has_friction, show_strips, strips_mirror
+  public :: plan_foil, choose_solution, film_elements, solved_rows, count_bumps, has_friction, &
+            show_strips, strips_mirror
 
   !> Condensed bumps may take so many times what all unknowns take, by the laws: they have fewer of
   !> them to go through in each step. Of 18 scenes that were measured with both the choice was the
@@ -71,18 +72,26 @@ contains
     if (.not. scene%general%analysis%loads_strip) half = half .and. is_symmetric(scene)
   end function solves_half
 
+  !> Elements of the film along the pad.
+  function film_elements(scene) result(elements)
+    type(scene_type), intent(in) :: scene !! of a bearing
+    integer :: elements
+
+    elements = scene%mesh%circumferential_elements
+    if (.not. scene%model%foil%has_bumps) return
+    if (stations_follow_crests(scene)) elements = size(plate_stations(scene)) - 1
+  end function film_elements
+
   !> Nodes of film and top foil along the pad.
   function film_stations(scene) result(stations)
     type(scene_type), intent(in) :: scene !! of a bearing of shells
     integer :: stations
-
-    stations = scene%model%film_order*scene%mesh%circumferential_elements + 1
-    if (stations_follow_crests(scene)) stations = size(plate_stations(scene))
+    stations = scene%model%film_order*film_elements(scene) + 1
   end function film_stations
 
   !> Rows of nodes over the width that is solved.
   pure integer function solved_rows(scene, half) result(rows)
-    type(scene_type), intent(in) :: scene
+    type(scene_type), intent(in) :: scene !! with a mesh
     logical, intent(in) :: half !! of the width
 
     rows = scene%model%film_order*scene%mesh%axial_elements
