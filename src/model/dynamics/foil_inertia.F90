@@ -54,7 +54,8 @@ contains
     PetscCallA(MatAXPY(real_part, real(mass, wp), inertia%mass, SAME_NONZERO_PATTERN, ierr))
     PetscCallA(MatAXPY(imaginary_part, aimag(mass), inertia%mass, SAME_NONZERO_PATTERN, ierr))
     if (.not. inertia%has_modes .or. inertia%skips_modes) return
-    do k = 1, 2 ! one after the other: each is as large as the mass
+    ! One after the other: each is as large as the mass. Blocks are found twice: kept, those of [Gu2020]'s bearing took 45 MB.
+    do k = 1, 2
       PetscCallA(MatDuplicate(inertia%mass, MAT_DO_NOT_COPY_VALUES, part, ierr))
       PetscCallA(MatSetOption(part, MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE, ierr)) ! round-off, as the mass has
       do i = 1, size(inertia%inner)
