@@ -420,7 +420,7 @@ contains
     real(wp), intent(in), optional :: state(:) !! local unknowns, in SI
     type(operating_point_type) :: before
     type(bearing_system_type) :: other
-    type(scene_type) :: there
+    type(scene_type), allocatable :: there ! large
     type(error_type), allocatable :: error
     logical :: moved
 
@@ -432,6 +432,7 @@ contains
       bearing%point = before
       return
     end if
+    allocate (there)
     call scene_with_key(scene, parameter%key, value, there, error, at)
     if (.not. allocated(error)) then
       call keep_elements(scene, there)

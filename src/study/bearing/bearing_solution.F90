@@ -37,7 +37,7 @@ module gfb_bearing_solution
 
   !> The bearing, its solvers, and what was recorded. Keep it where it is.
   type, public :: bearing_solution_type
-    type(scene_type) :: scene
+    type(scene_type), allocatable :: scene !! what is asked for; large for the stack that first values pass over
     type(scene_type), allocatable :: here !! the same with the present value of swept keys
     type(bearing_plan_type) :: plan
     type(run_context_type) :: context
