@@ -18,8 +18,10 @@ module gfb_film_mesh
     logical :: periodic = .false.              !! the last station's neighbour is the first
     logical :: half = .false.                  !! z >= 0 only, the other half is its mirror
     logical :: opposite = .false.              !! what is solved changes its sign there
+    logical :: sealed = .false.                !! nothing flows through the first row
     integer :: repeats = 1                     !! equal pads of a ring for which this one stands
     integer :: order = 1                       !! of the film's elements: 1 bilinear, 2 biquadratic
+    integer :: planned(2) = 0 !! elements along the motion and the whole width that it was made for
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
     !> s of the rows: z, 0 at the midplane, of a cylinder [m]
     real(wp), allocatable :: row_axial(:)
@@ -118,7 +120,8 @@ contains
   !> Mesh of a sector: stations along the motion, rows from the inner to the outer radius; both
   !> graded towards the edges, with sides of elements where the gap has kinks and where strips meet.
   pure function sector_film_mesh(radii, leading_edge_angle, pad_angle, kink, cuts, &
-                                 circumferential, radial, along, refinement, order) result(mesh)
+                                 circumferential, radial, along, refinement, order, &
+                                 periodic) result(mesh)
     real(wp), intent(in) :: radii(2)           !! inner and outer one [m]
     real(wp), intent(in) :: leading_edge_angle !! theta_0 [rad]
     real(wp), intent(in) :: pad_angle          !! from leading to trailing edge [rad]
@@ -128,6 +131,7 @@ contains
     integer, intent(in) :: radial              !! elements along the radius
     real(wp), intent(in) :: along, refinement  !! of stations and rows, see axial_rows [1]
     integer, intent(in) :: order               !! of the elements: 1 or 2
+    logical, intent(in), optional :: periodic  !! a ring without edges; default: it has some
     type(film_mesh_type) :: mesh
     real(wp), allocatable :: angle(:), radius(:)
 
@@ -142,6 +146,8 @@ contains
     call put_sides_on(kink, order, angle)
     mesh%row_axial = radius
     mesh%station_angle = leading_edge_angle + angle
+    if (present(periodic)) mesh%periodic = periodic
+    if (mesh%periodic) mesh%station_angle = mesh%station_angle(:size(angle) - 1)
   end function sector_film_mesh
 
   !> Puts the nearest side of an element on each place; what lies between is stretched. Places at an
@@ -315,7 +321,7 @@ contains
     class(film_mesh_type), intent(in) :: self !! the film's mesh
     integer, intent(in) :: station, row !! from 1
 
-    edge = row == self%rows() .or. (row == 1 .and. .not. self%half)
+    edge = row == self%rows() .or. (row == 1 .and. .not. (self%half .or. self%sealed))
     if (.not. self%periodic) edge = edge .or. station == 1 .or. station == self%stations()
   end function film_is_edge
 end module gfb_film_mesh

@@ -1,0 +1,199 @@
+!> Gas that is fed into a film under pressure: through a porous wall, through orifices.
+!>
+!> Flows are in the film's own unit, mass times \( R_g T_s \): pressure times volume a time. Index s
+!> is the supply's, p the pressure of the film.
+module gfb_feed_law
+  use gfb_kinds, only: wp
+  use gfb_units, only: pi
+  implicit none (type, external)
+  private
+  public :: wall_source, orifice_flow, largest_orifice_flow, critical_ratio, rim_pressure
+
+  integer, parameter, public :: restriction_series = 1  !! hole and curtain, one behind the other
+  integer, parameter, public :: restriction_curtain = 2 !! the gap around the mouth
+  integer, parameter, public :: restriction_hole = 3    !! the hole itself
+
+  real(wp), parameter :: laminar = 1.0e-3_wp !! eps of the flow without a difference of pressure [1]
+  real(wp), parameter :: least_square = 1.0e-4_wp !! of a mouth's, over the film's [1]
+
+  !> A porous wall behind the whole surface.
+  type, public :: porous_wall_type
+    logical :: present = .false.
+    real(wp) :: supply_pressure = 0.0_wp !! p_s, absolute [Pa]
+    real(wp) :: thickness = 0.0_wp       !! H, as the flow through it counts it [m]
+    real(wp) :: resistance = 0.0_wp      !! A, viscosity over permeability [Pa s/m2]
+    real(wp) :: inertia = 0.0_wp         !! B over Rg T_s [1/m over J/kg]
+  end type porous_wall_type
+
+  !> Holes that are alike.
+  type, public :: orifice_type
+    integer :: restriction = restriction_series
+    real(wp) :: supply_pressure = 0.0_wp !! p_s, absolute [Pa]
+    real(wp) :: energy = 0.0_wp          !! Rg T_s [J/kg]
+    real(wp) :: ratio = 1.4_wp           !! of the specific heats, gamma [1]
+    real(wp) :: coefficient = 0.8_wp     !! of discharge, C_d [1]
+    real(wp) :: diameter = 0.0_wp        !! d [m]
+    real(wp) :: mouth = 0.0_wp           !! d_m, of what opens into the film [m]
+    logical :: both_ways = .true.        !! gas may leave the film, too
+  end type orifice_type
+
+contains
+
+  !> What a porous wall feeds into the film over it, of an area, and its derivative by the pressure.
+  !>
+  !> $$ s = R_g T_s \dot m'' = \frac{2 y}{A + \sqrt{A^2 + 4 B |y|/(R_g T_s)}}, \quad
+  !>    y = \frac{p_s^2 - p^2}{2 H}, \quad A = \mu/\kappa $$
+  !>
+  !> Darcy's law for an ideal gas of one temperature, with Forchheimer's term for its inertia:
+  !> \( -dp/dn = A u + B \rho u^2 \) through a wall that is thin beside its extent.
+  elemental subroutine wall_source(wall, pressure, source, by_pressure)
+    type(porous_wall_type), intent(in) :: wall !! behind the film
+    real(wp), intent(in) :: pressure     !! p of the film [Pa]
+    real(wp), intent(out) :: source      !! s [Pa m/s]
+    real(wp), intent(out) :: by_pressure !! its derivative [m/s]
+    real(wp) :: drive, root, rest
+
+    drive = (wall%supply_pressure - pressure)*(wall%supply_pressure + pressure)/ &
+            (2.0_wp*wall%thickness)
+    root = sqrt(wall%resistance**2 + 4.0_wp*wall%inertia*abs(drive))
+    rest = wall%resistance + root
+    source = 2.0_wp*drive/rest
+    ! With B the derivative by y is 2/(A + root) - 2 |y| (2 B/root)/(A + root)^2, which is 1/root.
+    by_pressure = -pressure/(wall%thickness*root)
+  end subroutine wall_source
+
+  !> Flow through an orifice into its mouth, and its derivatives by pressure and gap there.
+  !>
+  !> $$ q = R_g T_s \dot m = C_d A(h) p_s \sqrt{R_g T_s} \, \psi(p_d/p_s) $$
+  !>
+  !> with the area of the hole \( \pi d^2/4 \), of the curtain \( \pi d_m h \), or of both one
+  !> behind the other, \( A_o A_c/\sqrt{A_o^2 + A_c^2} \), which has both as its limits.
+  elemental subroutine orifice_flow(orifice, pressure, gap, flow, by_pressure, by_gap)
+    type(orifice_type), intent(in) :: orifice !! the hole
+    real(wp), intent(in) :: pressure !! p_d in its mouth [Pa]
+    real(wp), intent(in) :: gap      !! h there [m]
+    real(wp), intent(out) :: flow        !! q [Pa m3/s]
+    real(wp), intent(out) :: by_pressure !! its derivative [m3/s]
+    real(wp), intent(out) :: by_gap      !! its derivative [Pa m2/s]
+    real(wp) :: hole, curtain, area, area_by_gap, psi, slope, size
+
+    hole = 0.25_wp*pi*orifice%diameter**2
+    curtain = pi*orifice%mouth*gap
+    select case (orifice%restriction)
+    case (restriction_hole)
+      area = hole
+      area_by_gap = 0.0_wp
+    case (restriction_curtain)
+      area = curtain
+      area_by_gap = pi*orifice%mouth
+    case default
+      area = hole*curtain/hypot(hole, curtain)
+      area_by_gap = pi*orifice%mouth*(hole/hypot(hole, curtain))**3
+    end select
+    call flow_factor(pressure/orifice%supply_pressure, orifice%ratio, psi, slope)
+    if (.not. orifice%both_ways .and. psi < 0.0_wp) then
+      psi = 0.0_wp
+      slope = 0.0_wp
+    end if
+    size = orifice%coefficient*orifice%supply_pressure*sqrt(orifice%energy)
+    flow = size*area*psi
+    by_pressure = size*area*slope/orifice%supply_pressure
+    by_gap = size*area_by_gap*psi
+  end subroutine orifice_flow
+
+  !> What an orifice lets through at most: choked, all its hole open; without one its curtain.
+  elemental real(wp) function largest_orifice_flow(orifice, gap) result(flow)
+    type(orifice_type), intent(in) :: orifice !! the hole
+    real(wp), intent(in) :: gap !! the largest that is expected at its mouth [m]
+    real(wp) :: by_pressure, by_gap
+    call orifice_flow(orifice, 0.5_wp*critical_ratio(orifice%ratio)*orifice%supply_pressure, gap, &
+                      flow, by_pressure, by_gap)
+  end function largest_orifice_flow
+
+  !> Ratio of pressures below which the flow is choked: it does not depend on them any more.
+  !>
+  !> $$ x_c = \Bigl( \frac{2}{\gamma + 1} \Bigr)^{\gamma/(\gamma - 1)} $$
+  elemental real(wp) function critical_ratio(ratio) result(critical)
+    real(wp), intent(in) :: ratio !! of the specific heats, gamma [1]
+    critical = (2.0_wp/(ratio + 1.0_wp))**(ratio/(ratio - 1.0_wp))
+  end function critical_ratio
+
+  !> Isentropic flow factor over the ratio of the pressures behind and before a hole, and its slope.
+  !>
+  !> $$ \psi = \frac{D}{(D^2 + \epsilon^2)^{1/4}}, \quad D = \begin{cases}
+  !>    \gamma (2/(\gamma + 1))^{(\gamma + 1)/(\gamma - 1)} & x \le x_c \\
+  !>    \frac{2 \gamma}{\gamma - 1} (x^{2/\gamma} - x^{(\gamma + 1)/\gamma}) & x_c < x \le 1 \\
+  !>    -x^2 D(1/x) & x > 1 \end{cases} $$
+  !>
+  !> Source: de Saint-Venant and Wantzel. Without a difference of pressure the slope of
+  !> \( \sqrt{D} \) is infinite; the flow is laminar there, in truth, and \( \epsilon \) makes
+  !> it so.
+  elemental subroutine flow_factor(ratio, gamma, psi, slope)
+    real(wp), intent(in) :: ratio  !! x [1]
+    real(wp), intent(in) :: gamma  !! [1]
+    real(wp), intent(out) :: psi   !! negative where gas flows back [1]
+    real(wp), intent(out) :: slope !! its derivative [1]
+    real(wp) :: square, by_ratio, rate
+
+    if (ratio <= 1.0_wp) then
+      call factor_square(ratio, gamma, square, by_ratio)
+    else
+      call factor_square(1.0_wp/ratio, gamma, square, rate)
+      by_ratio = rate - 2.0_wp*ratio*square
+      square = -ratio**2*square
+    end if
+    associate (sum => square**2 + laminar**2)
+      psi = square/sum**0.25_wp
+      slope = by_ratio*(0.5_wp*square**2 + laminar**2)/sum**1.25_wp
+    end associate
+  end subroutine flow_factor
+
+  !> D of `flow_factor` up to a ratio of one.
+  elemental subroutine factor_square(ratio, gamma, square, slope)
+    real(wp), intent(in) :: ratio, gamma
+    real(wp), intent(out) :: square, slope
+    real(wp) :: factor
+
+    if (ratio <= critical_ratio(gamma)) then
+      square = gamma*(2.0_wp/(gamma + 1.0_wp))**((gamma + 1.0_wp)/(gamma - 1.0_wp))
+      slope = 0.0_wp
+      return
+    end if
+    factor = 2.0_wp*gamma/(gamma - 1.0_wp)
+    square = factor*(ratio**(2.0_wp/gamma) - ratio**((gamma + 1.0_wp)/gamma))
+    slope = factor*(2.0_wp*ratio**(2.0_wp/gamma - 1.0_wp) &
+                    - (gamma + 1.0_wp)*ratio**(1.0_wp/gamma))/gamma
+  end subroutine factor_square
+
+  !> Pressure in a mouth whose rim the mesh of the film smears, and its derivatives.
+  !>
+  !> $$ p_d^2 = p_0^2 + \beta q/k, \quad k = \frac{h^3}{24 \mu} $$
+  !>
+  !> Around a mouth \( p^2 \) is a logarithm, which no mesh follows: \( \beta \) is what the mean of
+  !> a unit source on the rim lacks on this mesh, for an even gap.
+  elemental subroutine rim_pressure(lack, viscosity, mean, flow, gap, pressure, by_mean, by_flow, &
+                                    by_gap)
+    real(wp), intent(in) :: lack      !! beta [1]
+    real(wp), intent(in) :: viscosity !! mu [Pa s]
+    real(wp), intent(in) :: mean      !! p_0, on the rim [Pa]
+    real(wp), intent(in) :: flow      !! q into the film [Pa m3/s]
+    real(wp), intent(in) :: gap       !! h [m]
+    real(wp), intent(out) :: pressure !! p_d [Pa]
+    real(wp), intent(out) :: by_mean, by_flow, by_gap !! [1], [Pa/(Pa m3/s)], [Pa/m]
+    real(wp) :: mobility, square
+
+    mobility = gap**3/(24.0_wp*viscosity)
+    square = mean**2 + lack*flow/mobility
+    if (square < least_square*mean**2) then ! an iterate far from any answer
+      pressure = sqrt(least_square)*mean
+      by_mean = sqrt(least_square)
+      by_flow = 0.0_wp
+      by_gap = 0.0_wp
+      return
+    end if
+    pressure = sqrt(square)
+    by_mean = mean/pressure
+    by_flow = 0.5_wp*lack/(mobility*pressure)
+    by_gap = -1.5_wp*lack*flow/(mobility*gap*pressure)
+  end subroutine rim_pressure
+end module gfb_feed_law
