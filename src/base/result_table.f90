@@ -236,6 +236,20 @@ module gfb_result_table
     result_type('maximum_solid_contact_pressure', 'Pa', number, bearing, &
       'largest pressure of the solid contact', 'the same: largest pressure of the asperities')]
 
+  type(result_type), parameter :: feeds(*) = [ &
+    result_type('supply_flow', 'kg/s', number, bearing, 'of gas that is fed into the film', &
+      'with `&feed`: gas that the whole bearing takes from its supply', asked=.true., &
+      compared=.true.), &
+    result_type('supply_power', 'W', number, bearing, &
+      'to compress that gas from ambient pressure, isothermal', asked=.true.), &
+    result_type('choked_orifices', '1', total, bearing, 'whose flow is as fast as sound'), &
+    result_type('backflow_orifices', '1', total, bearing, 'through which gas leaves the film'), &
+    result_type('orifice_flow_<n>', 'kg/s', number, bearing, &
+      'of orifice n into the film, row by row', &
+      'with `spread = ''rim''`: of orifice n into the film, row by row; of equal sectors those '// &
+      'of the first'), &
+    result_type('mouth_pressure_<n>', 'Pa', number, bearing, 'in the mouth of orifice n')]
+
   type(result_type), parameter, public :: heats(*) = [ &
     result_type('film_temperature', 'K', number, bearing, 'mean of the gas in the film', &
       'with `&thermal`: mean over the gas in the film', asked=.true.), &
@@ -444,6 +458,10 @@ module gfb_result_table
     result_type('edge_stiffness_<n>', 'N/m', number, bearing, &
       'force that lifts the free edge of pad n over its displacement', &
       'of several pads: the same of each', changes_sign=.true.), &
+    result_type('hammer_frequency', 'rad/s', number, bearing, &
+      'at which a runner of the critical mass grows along the axis', &
+      'of a thrust bearing with `&feed`: at which a runner of the critical mass grows along '// &
+      'the axis; absent where the film damps all', asked=.true.), &
     result_type('critical_mass', 'kg', number, bearing, &
       'mass on this bearing above which a rigid shaft whirls, {at this load and speed}', &
       'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &
@@ -712,6 +730,6 @@ module gfb_result_table
       'sweeps on several groups: how the groups'' stretches fit together')]
 
   type(result_type), parameter, public :: result_rows(*) = [ &
-    every_study, bearings, heats, transients, tilts, judgements, strips, vibrations, costs, &
+    every_study, bearings, feeds, heats, transients, tilts, judgements, strips, vibrations, costs, &
     machines, sweeps, ensembles, origins]
 end module gfb_result_table

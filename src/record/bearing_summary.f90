@@ -9,6 +9,7 @@ module gfb_bearing_summary
   use gfb_run_log, only: run_log_type
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
+  use gfb_feed_answer, only: feed_answer_type
   use gfb_heat_answer, only: heat_answer_type, heat_share_type
   use gfb_modulus_law, only: is_usual_modulus, usual_words
   implicit none (type, external)
@@ -73,6 +74,7 @@ contains
     call add_result(list, 'minimum_pressure', answer%minimum_pressure)
     call add_result(list, 'maximum_peclet', answer%maximum_peclet)
     if (allocated(answer%pad_gap)) call add_pads(answer, list)
+    if (answer%feed%present) call add_feed(answer%feed, list)
     if (answer%heat%present) call add_heat(answer%heat, .true., list)
     if (answer%has_foils) then
       call add_result(list, 'leading_edge_lift', answer%leading_edge_lift(1))
@@ -128,6 +130,7 @@ contains
         call add_result(list, 'lifted_length', answer%lifted_length)
       end if
       call add_result(list, 'maximum_peclet', answer%maximum_peclet)
+      if (answer%feed%present) call add_feed(answer%feed, list)
       if (answer%heat%present) call add_heat(answer%heat, .false., list)
       call add_result(list, 'pads_solved', ring%pads_solved)
     end associate
@@ -188,6 +191,23 @@ contains
     call add_result(list, 'torque_y_without_suction', answer%force_without_suction(5))
     call add_result(list, 'friction_torque', answer%friction_torque, braking)
   end subroutine add_loads
+
+  !> Adds what the supply gives.
+  subroutine add_feed(feed, list)
+    type(feed_answer_type), intent(in) :: feed
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+    integer :: i
+
+    call add_result(list, 'supply_flow', feed%flow)
+    call add_result(list, 'supply_power', feed%power)
+    if (.not. allocated(feed%orifice)) return
+    call add_result(list, 'choked_orifices', feed%choked)
+    call add_result(list, 'backflow_orifices', feed%backflow)
+    do i = 1, size(feed%orifice)
+      call add_result(list, 'orifice_flow_'//text(i), feed%orifice(i))
+      call add_result(list, 'mouth_pressure_'//text(i), feed%pressure(i))
+    end do
+  end subroutine add_feed
 
   !> Adds temperatures, and where the heat goes.
   subroutine add_heat(heat, grows, list)

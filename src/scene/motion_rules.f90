@@ -204,7 +204,8 @@ contains
     if (.not. scene%rotor%present) return
     tilts = keys%meant(group, transverse)
     apart = keys%meant(group, distance)
-    call keys%rule(group, 'mass', scene%dynamics%present .and. stands_still(keys, scene), &
+    call keys%rule(group, 'mass', scene%dynamics%present .and. stands_still(keys, scene) .and. &
+                   .not. (scene%feed%present .and. scene%bearing%row%has_sectors), &
                    'needs a shaft that turns: nothing whirls at rest')
     call keys%refuse(group, polar, .not. tilts, 'has no use without transverse_inertia: a '// &
                      'rotor that does not tilt has no gyroscopic torque')

@@ -16,6 +16,7 @@ module gfb_scene
                               read_dynamics_case, analysis_of_state, read_foil_damping_case, &
                               read_periodic_case, read_rotor_case, read_unbalance_case, &
                               read_transient_case
+  use gfb_feed_case, only: feed_case_type, read_feed_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
   use gfb_foil_row, only: foil_row_type, foil_unknown
@@ -46,6 +47,7 @@ module gfb_scene
     type(bearing_case_type) :: bearing
     type(bore_case_type) :: bore
     type(gas_case_type) :: gas
+    type(feed_case_type) :: feed
     type(thermal_case_type) :: thermal
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep
@@ -104,9 +106,10 @@ contains
       call read_ramp_case(keys, scene%bearing, analysis%refusal('ramp'))
       call read_bore_case(keys, scene%bore, scene%bearing, analysis%refusal('bore'))
       call read_gas_case(keys, scene%gas, analysis)
+      call read_feed_case(keys, scene%feed, scene%gas, scene%bearing, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, scene%bearing, state, &
-                               scene%shaft_contact%present)
+                               scene%shaft_contact%present .or. scene%feed%present)
       if (scene%bearing%row%has_sectors) then
         scene%bearing%clearance = size_of_gap(scene%bearing, scene%operation, &
                                               scene%gas%viscosity, scene%gas%ambient_pressure)

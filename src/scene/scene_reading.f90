@@ -448,6 +448,7 @@ contains
     there%foil_damping = changed%foil_damping
     there%capacity = changed%capacity
     there%gas = changed%gas
+    there%feed = changed%feed
     there%thermal = changed%thermal
     there%operation = changed%operation
     there%top_foil = changed%top_foil

@@ -10,6 +10,7 @@ module gfb_scene_rules
                              is_unloaded
   use gfb_count_rules, only: check_counts
   use gfb_sample_rules, only: check_sample
+  use gfb_feed_rules, only: check_feed
   use gfb_foil_rules, only: check_foils
   use gfb_shape_rules, only: check_shape
   use gfb_model_case, only: needs_meshes, half_width_yes, reduction_guyan, coupling_partitioned
@@ -62,6 +63,7 @@ contains
     call check_shape(keys, scene)
     call check_counts(keys, scene)
     call check_heat(keys, scene)
+    call check_feed(keys, scene)
   end subroutine check_groups
 
   !> What heat asks of the scene; first what it cannot have beside it yet.
@@ -272,6 +274,8 @@ contains
       half = model%half_width == half_width_yes
       call keys%rule('model', 'half_width', half .and. &
                      tilts(scene%operation, scene%sweep), 'needs a bearing without tilt')
+      call keys%rule('model', 'half_width', half .and. .not. scene%feed%mirrors(), 'needs rows '// &
+                     'of orifices in &feed that mirror each other about z = 0, without row_shift')
       call keys%rule('model', 'half_width', half .and. mod(elements, 2) /= 0, 'needs an even '// &
                      'number of axial_elements in &mesh, not '//text(elements))
       call check_lifts('leading_edge_lift', size(scene%operation%leading_edge_lift))
@@ -314,7 +318,8 @@ contains
   pure logical function is_symmetric(scene) result(symmetric)
     type(scene_type), intent(in) :: scene !! what the case file asks for
     symmetric = .not. (scene%bearing%row%ends_differ .or. &
-                       tilts(scene%operation, scene%sweep)) .and. heat_mirrors(scene)
+                       tilts(scene%operation, scene%sweep)) .and. heat_mirrors(scene) .and. &
+                scene%feed%mirrors()
   end function is_symmetric
 
   !> Whether heat leaves both halves of the width alike, at every point of the scene.

@@ -23,12 +23,15 @@ module gfb_bearing
   use gfb_local_exchange, only: local_exchange_type
   use gfb_pad, only: pad_type
   use gfb_bearing_heat, only: film_heat_type, moduli_at
+  use gfb_film_feed, only: film_feed_type, mouth_unknowns, mouth_mean
   use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_spring_history, only: foil_dampers_type
   use gfb_vibration_equations, only: vibration_equations_type
   implicit none (type)
   private
   public :: places_of
+
+  real(wp), parameter :: fed_at_rest = 0.3_wp !! of the way from ambient to supply pressure, where a search begins [1]
 
   !> A state of a bearing, as its equations ask for it.
   type, public :: bearing_state_type
@@ -61,6 +64,7 @@ module gfb_bearing
   !>     a force over time       prepare_step, add_force, add_stiffness, end_motion: losses
   !>     ... with a memory       end_step and visit, too: momentum; recall_step where pads hold it: dampers
   !>     ... by the frequency    add_vibration, the same force in a small vibration: losses, dampers
+  !>     gas beside the films    add_column, where the shaft moves it, and add_rates: feed
   type, public :: bearing_block_type
     character(len=8) :: name = ''
     ! its unknowns: asked by the numbering, scales, searches and transfers to a finer mesh
@@ -81,6 +85,7 @@ module gfb_bearing
     procedure(block_gap), pointer, nopass :: add_gap => null()
     procedure(residual_block), pointer, nopass :: add_residual => null()
     procedure(matrix_block), pointer, nopass :: add_jacobian => null()
+    procedure(shaft_column), pointer, nopass :: add_column => null()
     ! asked by a march through time: the first two by the assembly of its steps, in vectors and matrices that are scaled
     procedure(scaled_force), pointer, nopass :: add_force => null()
     procedure(scaled_stiffness), pointer, nopass :: add_stiffness => null()
@@ -89,6 +94,7 @@ module gfb_bearing
     procedure(block_end), pointer, nopass :: end_motion => null()
     ! asked by small vibrations: what depends on the frequency
     procedure(vibration_parts), pointer, nopass :: add_vibration => null()
+    procedure(film_rates), pointer, nopass :: add_rates => null()
     ! asked by restart files
     procedure(block_visit), pointer, nopass :: visit => null()
     procedure(recalled_step), pointer, nopass :: recall_step => null()
@@ -126,6 +132,7 @@ module gfb_bearing
     logical :: shaft_fixed = .false.       !! there are, but fixed at the point's place
     type(pad_type), allocatable :: pad(:)  !! equal ones
     type(film_heat_type) :: heat           !! of film, foils and walls, where it is asked for
+    type(film_feed_type), allocatable :: feed !! what feeds the films, where something does
     type(foil_momentum_type) :: momentum   !! inertia of the foils over a step of time, where they have a mass
     type(foil_losses_type) :: losses       !! viscous ones of meshed foils over a step of time, where there are any
     type(foil_dampers_type) :: dampers     !! beside the springs of a foundation over a step of time, where there are any
@@ -149,6 +156,7 @@ module gfb_bearing
     procedure, non_overridable :: upwinds, foil_surfaces, has_mirror_motions, mesh_nodes
     procedure, non_overridable :: has_slow_unknowns
     procedure, non_overridable :: local_size, film_nodes, film_pressure, put_pressure, film_force, is_meshed
+    procedure, non_overridable :: put_gas_at_rest
     procedure, non_overridable :: has_contacts
     procedure, non_overridable :: gap => bearing_gap
     procedure, non_overridable :: modulus => bearing_modulus
@@ -197,6 +205,26 @@ module gfb_bearing
       logical, intent(in) :: room !! zeros alone, where they stand; the state has no values then
       Mat, intent(in) :: matrix !! of the bearing, not scaled yet
     end subroutine matrix_block
+
+    !> Adds to the derivative by one of the shaft's coordinates, the unknowns staying.
+    subroutine shaft_column(bearing, state, coordinate, column)
+      import :: bearing_type, bearing_state_type, wp
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      type(bearing_state_type), intent(in) :: state
+      integer, intent(in) :: coordinate !! see `shaft_coordinates`
+      real(wp), intent(inout) :: column(:) !! of the local equations [SI]
+    end subroutine shaft_column
+
+    !> Adds to a derivative that films have in time, see `gfb_film_rates`, by the bearing's local numbers.
+    subroutine film_rates(bearing, kind, state, matrix)
+      import :: bearing_type, bearing_state_type, tMat
+      implicit none (type, external)
+      class(bearing_type), intent(in) :: bearing
+      integer, intent(in) :: kind !! `squeeze`, `squeeze_by_gap` or `flow_by_gap`
+      type(bearing_state_type), intent(in) :: state
+      Mat, intent(in) :: matrix !! not scaled yet
+    end subroutine film_rates
 
     !> Its scalars in groups, always the same ones in the same order.
     pure subroutine scalar_groups(bearing, group)
@@ -593,6 +621,28 @@ contains
       end associate
     end do
   end subroutine put_pressure
+
+  !> Puts the films' gas as it is before a search: at ambient pressure, and where it is fed at a part of the way to the supply's.
+  pure subroutine put_gas_at_rest(self, unknown)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp), intent(inout) :: unknown(:) !! local, in SI
+    integer :: i, k, scalars
+
+    call self%put_pressure(spread(self%ambient_pressure, 1, self%film_nodes()), unknown)
+    if (.not. allocated(self%feed)) return
+    scalars = mouth_unknowns*size(self%feed%mouth)
+    associate (fed => self%ambient_pressure + fed_at_rest*(self%feed%supply_pressure() - self%ambient_pressure), first => self%feed%first)
+      do i = 1, size(self%pad)
+        associate (pad => self%pad(i))
+          do k = 1, size(pad%film%fixed)
+            if (.not. pad%film%fixed(k)) unknown(pad%first + k) = fed
+          end do
+        end associate
+      end do
+      unknown(first + 1:first + scalars) = 1.0_wp
+      unknown(first + mouth_mean:first + scalars:mouth_unknowns) = fed/self%ambient_pressure
+    end associate
+  end subroutine put_gas_at_rest
 
   !> Whether the films are weighted by SUPG instead of Galerkin.
   pure logical function upwinds(self)

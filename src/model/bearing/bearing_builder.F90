@@ -9,7 +9,7 @@ module gfb_bearing_builder
   use gfb_errors, only: error_type, add_context
   use gfb_scene, only: scene_type
   use gfb_scene_rules, only: solves_one_pad
-  use gfb_bearing_case, only: surface_of, pad_angle, pad_turn, preload_angle, leading_edge_periodic
+  use gfb_bearing_case, only: surface_of, pad_angle, pad_turn, preload_angle, inner_edge_sealed
   use gfb_foil_row, only: foil_rigid, foil_elastic_foundation, foil_shell, foil_beam, foil_plate
   use gfb_model_case, only: reduction_guyan
   use gfb_film_mesh, only: film_mesh_type, uniform_film_mesh, film_mesh_at, sector_film_mesh, cell_nodes
@@ -31,11 +31,13 @@ module gfb_bearing_builder
   use gfb_gas_film, only: gas_film_type, create_gas_film, put_strips, freeze_film, frozen_heat_type
   use gfb_heat_switch, only: follow_frozen
   use gfb_changed_foil, only: take_foil_numbers
+  use gfb_feed_builder, only: find_feed, take_feed_numbers
+  use gfb_feed_mesh, only: refine_at_holes
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
   use gfb_mesh_plan, only: bearing_plan_type
-  use gfb_units, only: pi
+  use gfb_units, only: pi, turn
   use gfb_gas_law, only: gas_constant, density_table
   use gfb_heated_film, only: heated_gas_type
   use gfb_bearing_heat, only: film_heat_type, wall_type
@@ -206,8 +208,8 @@ contains
     associate (whole => bearing%mesh)
       plan%half = whole%half
       plan%order = whole%order
-      plan%circumferential = whole%circumferential()/plan%order
-      plan%axial = whole%axial()/plan%order*merge(2, 1, plan%half)
+      plan%circumferential = whole%planned(1)
+      plan%axial = whole%planned(2)
     end associate
     if (present(bearing_distance)) plan%bearing_distance = bearing_distance
     call build_on_mesh(scene_of(scene, bearing), film_mesh_of(scene, plan), bearing%upwinds(), bearing%floats, &
@@ -288,6 +290,7 @@ contains
     if (allocated(error)) return
     call find_places(scene, film%surface%offset, place)
     if (scene%thermal%present) bearing%heat = heat_of(scene)
+    call find_feed(scene, film, size(place), bearing%pad(1), bearing%feed)
     bearing%plane = .not. scene%model%foil%has_shells
     call create_bearing_system(bearing, foil, floats, scene%operation%moment_given, place)
     if (scene%solver%linear_solver == linear_solver_iterative) call bearing%find_motions()
@@ -345,6 +348,7 @@ contains
     integer :: i, k
 
     bearing%asperities = scene%shaft_contact
+    call take_feed_numbers(scene, bearing)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
         call find_shapes(scene%bearing, scene%bore, pad%whole%station_angle(1), pad%film%surface%facing, shape)
@@ -475,8 +479,9 @@ contains
         end do
         mesh = sector_film_mesh([bearing%inner_radius, bearing%radius], bearing%leading_edge_angle, pad_angle(bearing), &
                                 kink, scene%model%cut_radii, plan%circumferential, plan%axial, &
-                                merge(1.0_wp, scene%mesh%edge_refinement, scene%model%foil%has_top_foil), &
-                                scene%mesh%edge_refinement, plan%order)
+                                merge(1.0_wp, scene%mesh%edge_refinement, scene%model%foil%has_top_foil .or. bearing%is_ring()), &
+                                scene%mesh%edge_refinement, plan%order, bearing%is_ring())
+        mesh%sealed = bearing%inner_edge == inner_edge_sealed
         if (solves_one_pad(scene)) mesh%repeats = bearing%pads
         if (scene%model%foil%has_shell_bumps) call align_stations(mesh, bearing%leading_edge_angle + [kink, sector_sides(scene)])
         if (scene%bore%present .and. .not. scene%model%foil%has_top_foil) call align_graded(mesh, all_kinks())
@@ -486,18 +491,29 @@ contains
       else
         mesh = uniform_film_mesh(bearing%radius, bearing%length, bearing%leading_edge_angle, &
                                  pad_angle(bearing), plan%circumferential, plan%axial, &
-                                 bearing%leading_edge_condition == leading_edge_periodic, plan%half, plan%order, &
+                                 bearing%is_ring(), plan%half, plan%order, &
                                  scene%mesh%edge_refinement)
         if (size(shape) > 0 .and. .not. scene%model%foil%has_top_foil) then
           call align_stations(mesh, all_kinks())
         end if
       end if
       if (scene%model%foil%has_crest_springs) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
+      call refine_at_holes(scene, kept_sides(), mesh)
     end associate
+    mesh%planned = [plan%circumferential, plan%axial]
     mesh%surface = surface_of(scene%bearing)
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
 
   contains
+
+    !> Sides of elements that lie on kinks, whatever else is refined.
+    function kept_sides() result(kept)
+      real(wp), allocatable :: kept(:) !! [rad]
+
+      kept = scene%bearing%leading_edge_angle + kink
+      if (scene%bore%present) kept = [kept, scene%bearing%leading_edge_angle &
+                                      + modulo(all_kinks() - scene%bearing%leading_edge_angle, turn)]
+    end function kept_sides
 
     !> Kinks of all pads' gaps as if all were where the first one is.
     function all_kinks() result(kinks)

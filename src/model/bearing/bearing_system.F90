@@ -22,6 +22,7 @@ module gfb_bearing_system
   use gfb_bearing_numbering, only: number_unknowns, scale_unknowns, create_numbers, number_by
   use gfb_bearing_motion, only: momentum_block, losses_block, dampers_block, end_motion
   use gfb_heat_block, only: heat_block
+  use gfb_feed_block, only: feed_block
   use gfb_shaft_block, only: shaft_block, shaft_of
   use gfb_softness_block, only: softness_block
   use gfb_foil_rows, only: add_of_foil, create_bearing_motions
@@ -106,12 +107,17 @@ contains
     integer :: k
 
     if (allocated(bearing%block)) deallocate (bearing%block)
-    allocate (bearing%block(4 + count([bearing%heat%present, bearing%floats])))
+    allocate (bearing%block(4 + count([allocated(bearing%feed), bearing%heat%present, bearing%floats])))
     call softness_block(bearing%block(1))
     call momentum_block(bearing%block(2))
     call losses_block(bearing%block(3))
     call dampers_block(bearing%block(4))
     k = 4
+    if (allocated(bearing%feed)) then
+      k = k + 1
+      call feed_block(bearing, one)
+      bearing%block(k) = one
+    end if
     if (bearing%heat%present) then
       k = k + 1
       call heat_block(bearing, one)
@@ -402,6 +408,9 @@ contains
       do k = 1, size(self%term)
         if (associated(self%term(k)%add_column)) call self%term(k)%add_column(self%pad(i), of_pad, coordinate, value(self%pad(i)%first + 1:self%pad(i)%last), value(self%first_shaft + 1:))
       end do
+    end do
+    do k = 1, size(self%block)
+      if (associated(self%block(k)%add_column)) call self%block(k)%add_column(self, here, coordinate, value)
     end do
     PetscCallA(VecSet(column, 0.0_wp, ierr))
     call self%exchange%add(value/self%equation_scale(self%point), column)

@@ -13,7 +13,7 @@ module gfb_film_rates
   use gfb_pad_terms, only: shaft_unknowns_type, element_columns, add_block
   use gfb_foil_model, only: foil_model_type
   use gfb_pad, only: pad_type
-  use gfb_bearing, only: bearing_type
+  use gfb_bearing, only: bearing_type, bearing_state_type
   use gfb_bearing_numbering, only: number_by
   use gfb_foil_rows, only: add_of_foil
   implicit none (type)
@@ -44,6 +44,11 @@ contains
         call fill_pad_film(pad, kind, unknown(pad%first + 1:pad%first + nodes), gap(pad%first_node + 1:pad%last_node), &
                            bearing%position(unknown), matrix)
       end associate
+    end do
+    call number_by(bearing, 0, matrix)
+    do i = 1, size(bearing%block)
+      if (.not. associated(bearing%block(i)%add_rates)) cycle
+      call bearing%block(i)%add_rates(bearing, kind, bearing_state_type(bearing%position(unknown), bearing%point, unknown, gap), matrix)
     end do
     call finish(bearing, matrix)
   end subroutine fill_film

@@ -13,6 +13,8 @@ module gfb_gas_film
   use gfb_general_film, only: general_residual, general_jacobian
   use gfb_squeeze_term, only: stored_gas, storage_residual, storage_jacobian
   use gfb_film_flow, only: film_flow_type
+  use gfb_feed_law, only: porous_wall_type
+  use gfb_wall_film, only: wall_residual, wall_jacobian
   use gfb_reynolds_element, only: reynolds_residual, reynolds_jacobian
   use gfb_heated_film, only: heated_gas_type, heated_state_type, heated_residual, heated_jacobian, &
                              gas_factors, heated_rows, heated_fields, row_mass, field_pressure, &
@@ -40,6 +42,7 @@ module gfb_gas_film
   type, public :: gas_film_type
     type(film_flow_type) :: flow          !! of a shaft at rest, see `flow_at`
     type(gas_law_type) :: law             !! of the gas
+    type(porous_wall_type) :: wall        !! that feeds it
     type(film_surface_type) :: surface    !! that it lies on
     real(wp) :: clearance = 0.0_wp        !! C; of a ring the size of its gap [m]
     real(wp) :: ambient_pressure = 0.0_wp !! p_a [Pa]
@@ -517,6 +520,10 @@ contains
           call general_residual(geometry, flow, self%law, p(:n), h(:n), excess(:n), share(:n), &
                                 self%factors_of(element))
         end if
+        if (self%wall%present) then
+          share(:n) = share(:n) + wall_residual(geometry, flow, self%law, self%wall, p(:n), h(:n), &
+                                                excess(:n), self%factors_of(element))
+        end if
         if (allocated(self%past)) then
           share(:n) = share(:n) + storage_residual(geometry, flow, self%law, p(:n), h(:n), &
                                                    excess(:n), self%storage, &
@@ -560,6 +567,11 @@ contains
         call general_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), &
                               h(:n), excess(:n), by_pressure, by_gap, by_excess, &
                               self%factors_of(element))
+      end if
+      if (self%wall%present) then
+        call wall_jacobian(self%geometry(element), self%flow_at(point), self%law, self%wall, &
+                           p(:n), h(:n), excess(:n), by_pressure, by_gap, by_excess, &
+                           self%factors_of(element))
       end if
       if (allocated(self%past)) then
         call storage_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), h(:n), &

@@ -21,8 +21,10 @@ module gfb_bearing_case
 
   integer, parameter, public :: leading_edge_slit = 1     !! ambient pressure at both ends
   integer, parameter, public :: leading_edge_periodic = 2 !! a full ring without ends
+  integer, parameter, public :: inner_edge_sealed = 2     !! nothing flows through it
 
   character(len=*), parameter :: edge_words(*) = [character(len=8) :: 'slit', 'periodic']
+  character(len=*), parameter :: inner_words(*) = [character(len=7) :: 'ambient', 'sealed']
   character(len=*), parameter :: pads_group = 'pads', bore_group = 'bore', ramp_group = 'ramp'
   real(wp), parameter :: most_waves = 1000.0_wp !! of a bore; more are roughness, which no mesh has
   real(wp), parameter :: rounding = 1.0e-9_wp !! of angles that are meant to be equal [rad]
@@ -42,12 +44,13 @@ module gfb_bearing_case
     real(wp) :: interference = 0.0_wp        !! of assembly, off the gap all around [m]
     real(wp) :: leading_edge_angle = 0.0_wp  !! where the first pad begins [rad]
     integer :: leading_edge_condition = leading_edge_slit
+    integer :: inner_edge = 1                !! of a thrust bearing: ambient, `inner_edge_sealed`
     integer :: pads = 1                      !! equal ones, equally spaced
     real(wp) :: arc = 0.0_wp                 !! of one of them; 0: it ends at 2 pi [rad]
     real(wp) :: preload = 0.0_wp             !! shift of its centre over the clearance [1]
     real(wp) :: preload_offset = 0.5_wp      !! where on it: part of the arc [1]
   contains
-    procedure :: all_pads
+    procedure :: all_pads, is_ring
   end type bearing_case_type
 
   !> The bore.
@@ -119,8 +122,10 @@ contains
                        useless=unless(.not. ring, needs_journal//': first_leading_edge in '// &
                                       '&pads says where its pads begin'))
     call keys%choice_key('leading_edge_condition', bearing%leading_edge_condition, edge_words, &
-                         'ambient pressure at both ends of the pad, or a full ring', &
-                         useless=journal)
+                         'ambient pressure at both ends of the pad, or a full ring')
+    call keys%choice_key('inner_edge', bearing%inner_edge, inner_words, 'of thrust bearings: '// &
+                         'ambient pressure at the inner radius, or nothing flows through it', &
+                         useless=thrust)
     call keys%real_key('assembly_interference', bearing%interference, 'm', 'taken off the gap '// &
                        'all around; more than `clearance` presses the foil back at rest', &
                        at_least(0.0_wp), useless=journal, acts_on=acts_on_film)
@@ -135,6 +140,12 @@ contains
     class(bearing_case_type), intent(in) :: self !! what `&bearing` and `&pads` ask for
     pads = self%pads*merge(2, 1, self%play > 0.0_wp)
   end function all_pads
+
+  !> Whether the pad goes all around, without edges.
+  elemental logical function is_ring(self) result(ring)
+    class(bearing_case_type), intent(in) :: self !! what `&bearing` asks for
+    ring = self%leading_edge_condition == leading_edge_periodic
+  end function is_ring
 
   !> The ramp of a pad, and the play on the runner's other side.
   pure type(ramp_shape_type) function ramp_of(bearing, leading_edge, facing) result(ramp)

@@ -41,6 +41,7 @@ module gfb_gas_case
   !> What else the group says.
   type :: gas_keys_type
     logical :: heated = .false. !! the file has `&thermal`
+    logical :: fed = .false.    !! the file has `&feed`
     integer :: state = 1, turbulence = 1 !! words
     real(wp) :: critical_temperature = 0.0_wp !! [K]
     real(wp) :: critical_pressure = 0.0_wp    !! [Pa]
@@ -66,6 +67,7 @@ contains
     call keys%start_group(group, required=needed, optional=.not. needed, &
                           misplaced=analysis%refusal(group), acts_on=acts_on_film)
     said%heated = needed .and. keys%line_of_group('thermal') > 0
+    said%fed = needed .and. keys%line_of_group('feed') > 0
     said%table = keys%holds(group, 'density_table_pressure')
     said%viscosities = keys%holds(group, 'density_table_viscosity')
     by_law = said%viscosities .or. keys%holds(group, 'viscosity_law')
@@ -162,14 +164,15 @@ contains
     call key('temperature', gas%temperature, 'K', 'temperature of the gas, even and constant '// &
              'without `&thermal`', positive, real_needed .or. even .or. ideal_turbulence .and. &
              .not. said%heated, &
-             real_gas .or. said%table .or. turbulent .or. even .or. said%heated, &
+             real_gas .or. said%table .or. turbulent .or. even .or. said%heated .or. said%fed, &
              "viscosity_law = 'sutherland', equation_of_state = 'peng_robinson', a table, "// &
-             'turbulence of an ideal gas, or &thermal')
-    if (said%heated) gas%molar_mass = air
+             'turbulence of an ideal gas, &thermal or &feed')
+    if (said%heated .or. said%fed) gas%molar_mass = air
     call key('molar_mass', gas%molar_mass, 'kg/mol', "mass of a mole of the gas, air's "// &
-             '0.0289647 by default with `&thermal`', positive, turbulent .and. .not. &
-             (said%table .or. said%heated), real_gas .or. ideal_turbulence .or. said%heated, &
-             "equation_of_state = 'peng_robinson', turbulence of an ideal gas, or &thermal")
+             '0.0289647 by default with `&thermal` or `&feed`', positive, turbulent .and. .not. &
+             (said%table .or. said%heated .or. said%fed), &
+             real_gas .or. ideal_turbulence .or. said%heated .or. said%fed, &
+             "equation_of_state = 'peng_robinson', turbulence of an ideal gas, &thermal or &feed")
     call key('viscosity_temperature_exponent', gas%viscosity_temperature_exponent, '1', &
              'viscosity is `viscosity` times this power of the temperature over that of the '// &
              'ambient gas', any_value, gas%viscosity_law == viscosity_power, &

@@ -2,7 +2,7 @@
 module gfb_mesh_case
   use gfb_kinds, only: wp
   use gfb_bearing_case, only: bearing_case_type, pad_angle, middle_radius
-  use gfb_bearing_row, only: bearing_journal, needs_journal
+  use gfb_bearing_row, only: bearing_journal, bearing_thrust, needs_journal
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type, strip_straight
@@ -130,6 +130,7 @@ contains
     mesh%circumferential_elements = elements_along_pad(bearing, foil, model)/model%film_order
     mesh%axial_elements = mesh%axial_elements/model%film_order
     mesh%edge_refinement = bearing%row%edge_refinement
+    if (keys%line_of_group('feed') > 0) mesh%edge_refinement = bearing_thrust%edge_refinement
     call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
                           'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
                           default='8 a pitch with bumps, otherwise 240, of a thrust '// &
@@ -153,7 +154,7 @@ contains
                        'in the middle over that at the edges of the width: narrow ones where '// &
                        'the pressure falls; 1: equal ones, as strips side by side '// &
                        'always have; of thrust bearings along both ways', from_to(1.0_wp, &
-                       100.0_wp), default='1; 9 for thrust bearings')
+                       100.0_wp), default='1; 9 for thrust bearings and with &feed')
     call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
                           from_to(2.0_wp, 1000.0_wp))
     call keys%rule('mesh', 'arc_elements', modulo(mesh%arc_elements, 2) /= 0, &

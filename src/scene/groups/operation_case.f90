@@ -70,7 +70,7 @@ contains
     call keys%rule('operation', 'speed_rpm', analysis%floats .and. &
                    keys%last_key_is_right() .and. .not. (operation%speed_rpm > 0.0_wp .or. &
                    may_rest), 'must be positive: a film without speed carries no load; '// &
-                   '&shaft_contact does')
+                   '&shaft_contact does, or &feed')
     call keys%real_vector_key('load', operation%load, 'N', 'external force on the shaft, x and y', &
                               required=analysis%floats .and. bearing%row%moves_across, &
                               default='required for an equilibrium', given=operation%load_given, &

@@ -262,7 +262,7 @@ contains
     call start%save(bearing)
     place = bearing%shaft_place()
     unknown = 0.0_wp
-    call bearing%put_pressure(spread(bearing%ambient_pressure, 1, bearing%film_nodes()), unknown)
+    call bearing%put_gas_at_rest(unknown)
     unknown(bearing%first_shaft + 1:) = place(bearing%coordinate)
     call bearing%set_unknowns(unknown)
     call solve_at(bearing, newton, target, .false., settings, report, max_iterations)

@@ -83,6 +83,10 @@ contains
     wanted%place(:2) = bearing%eccentricity()
     free = free_position(bearing, wanted)
     call put_at_rest(bearing, free)
+    if (allocated(bearing%feed)) then
+      call newton%log%detail('fixed position at rest, fed')
+      call solve_at(bearing, newton, bearing%point, .true., to_position, report)
+    end if
     call newton%log%detail('fixed position, from rest to speed')
     call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
     report%shaft_fixed = .true.
@@ -142,7 +146,7 @@ contains
     bearing%point%speed = 0.0_wp
     bearing%shaft_fixed = .true.
     unknown = 0.0_wp
-    call bearing%put_pressure(spread(bearing%ambient_pressure, 1, bearing%film_nodes()), unknown)
+    call bearing%put_gas_at_rest(unknown)
     unknown(bearing%first_shaft + 1:) = position%place(bearing%coordinate)
     call bearing%set_unknowns(unknown)
   end subroutine put_at_rest

@@ -22,6 +22,7 @@ module gfb_dynamics
   use gfb_scene_vibration, only: vibration_of
   use gfb_foil_mass_choice, only: choose_mass, describe_mass
   use gfb_amplitude_response, only: vibration_state_type, start_vibration, find_at_amplitude
+  use gfb_hammer, only: hammer_type, find_hammer
   use gfb_whirl, only: whirl_type, find_critical_mass
   use gfb_rotor, only: rotor_type, conical, words_of_sense
   use gfb_rotor_modes, only: rotor_answer_type, find_rotor_modes, find_axial_mode, rotor_mode_type
@@ -85,6 +86,9 @@ contains
       if (scene%rotor%present .and. .not. allocated(record%problem)) then
         call find_rotor_modes(held%bearing, response, rotor_of(scene), rotor)
       end if
+    end if
+    if (.not. allocated(record%problem) .and. scene%bearing%row%has_sectors .and. scene%feed%present) then
+      call add_hammer(log, held%bearing, response, model, found, record%problem)
     end if
     if (.not. allocated(record%problem) .and. scene%bearing%row%moves_along .and. scene%rotor%present) then
       call add_axial_mode(scene, log, held%bearing, response, point%frequency(1), found)
@@ -427,6 +431,29 @@ contains
       problem = 'the search for the critical mass: '//response_failure(response)
     end if
   end subroutine add_whirl
+
+  !> Looks for the mass that the supply makes grow along the axis.
+  subroutine add_hammer(log, bearing, response, model, found, problem)
+    type(run_log_type), intent(in) :: log
+    type(bearing_system_type), intent(in) :: bearing !! that is fed
+    type(dynamic_response_type), intent(inout) :: response
+    type(frequency_response_type), intent(inout) :: model !! of the frequencies that were asked for
+    type(quantity_type), allocatable, intent(inout) :: found(:)
+    character(len=:), allocatable, intent(inout) :: problem !! what could not be factorized
+    type(hammer_type) :: hammer
+
+    call find_hammer(bearing, response, log, model, hammer)
+    if (hammer%found) then
+      call log%line('pneumatic hammer: runners heavier than the critical mass of '//text(hammer%critical_mass, 5)// &
+                    ' kg grow along the axis, at '//text(hammer%frequency, 5)//' rad/s')
+      call add_result(found, 'critical_mass', hammer%critical_mass)
+      call add_result(found, 'hammer_frequency', hammer%frequency)
+    else if (hammer%searched) then
+      call log%line('no pneumatic hammer: the film damps motions along the axis at all frequencies')
+    else
+      problem = 'the search for pneumatic hammer: '//response_failure(response)
+    end if
+  end subroutine add_hammer
 
   !> Looks for the rotor's mode along its axis.
   subroutine add_axial_mode(scene, log, bearing, response, frequency, found)

@@ -1,0 +1,381 @@
+#include "gfb_petsc.h"
+!> Orifices as a block of a bearing's equations: three for each mouth, see `gfb_film_feed`, and what they feed into the rows of the
+!> films.
+!>
+!> A porous wall has no unknowns: the elements of the films have it as a source (`wall` of `gfb_gas_film`). Orifices that are spread
+!> along a line have none either: each point of an element's side feeds by the pressure and the gap at it.
+module gfb_feed_block
+  use petscmat
+  use gfb_kinds, only: wp
+  use gfb_petsc_kinds, only: pint
+  use gfb_feed_law, only: orifice_flow
+  use gfb_film_feed, only: film_feed_type, mouth_state, mouth_unknowns, mouth_flow, mouth_mean, mouth_gap
+  use gfb_film_rates, only: squeeze, flow_by_gap
+  use gfb_pad_terms, only: add_block
+  use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type
+  implicit none (type)
+  private
+  public :: feed_block
+
+  !> A line's point: pressure, gap, what it feeds and derivatives.
+  type :: line_point_type
+    real(wp) :: pressure, gap, flow, by_pressure, by_gap
+  end type line_point_type
+
+contains
+
+  !> The block of a bearing that is fed through orifices.
+  pure subroutine feed_block(bearing, block)
+    class(bearing_type), intent(in) :: bearing !! with what feeds it
+    type(bearing_block_type), intent(out) :: block !! not numbered yet
+
+    block%name = 'feed'
+    block%scalars = mouth_unknowns*size(bearing%feed%mouth)
+    block%start = 1.0_wp
+    block%take_numbers => take_numbers
+    block%equation_sizes => sizes_of_equations
+    block%add_residual => feed_residual
+    block%add_jacobian => feed_jacobian
+    block%add_column => feed_column
+    block%add_rates => feed_rates
+    block%prepare_step => prepare_feed
+    block%end_motion => end_feed
+  end subroutine feed_block
+
+  !> Where mouths have their unknowns.
+  pure subroutine take_numbers(bearing, block)
+    class(bearing_type), intent(inout) :: bearing
+    type(bearing_block_type), intent(in) :: block
+    bearing%feed%first = block%first_scalar
+  end subroutine take_numbers
+
+  !> Equations are as large as their unknowns: one.
+  pure subroutine sizes_of_equations(bearing, scale)
+    class(bearing_type), intent(in) :: bearing
+    real(wp), intent(out) :: scale(:)
+    scale = 1.0_wp
+  end subroutine sizes_of_equations
+
+  !> Flows into the films, means and gaps of the mouths, laws of the orifices.
+  subroutine feed_residual(bearing, state, residual)
+    class(bearing_type), intent(in) :: bearing
+    type(bearing_state_type), intent(in) :: state
+    real(wp), intent(inout) :: residual(:)
+    real(wp) :: law(7), pressure
+    integer :: j, flow, mean, gap
+
+    associate (feed => bearing%feed)
+      do j = 1, size(feed%mouth)
+        flow = feed%place(j, mouth_flow)
+        mean = feed%place(j, mouth_mean)
+        gap = feed%place(j, mouth_gap)
+        associate (mouth => feed%mouth(j), pad => bearing%pad(feed%mouth(j)%pad))
+          call add_to_film(pad%film%fixed, mouth%node, -mouth%part*state%unknown(flow)*feed%size(mouth_flow)*mouth%weight, &
+                           residual(pad%first + 1:pad%last))
+          residual(mean) = residual(mean) - dot_product(mouth%weight, state%unknown(pad%first + mouth%node))/feed%size(mouth_mean)
+          residual(gap) = residual(gap) &
+            - dot_product(mouth%centre_weight, state%gap(pad%first_node + mouth%centre_node))/feed%size(mouth_gap)
+        end associate
+        if (.not. bearing%last_rank) cycle
+        residual(mean) = residual(mean) + state%unknown(mean)
+        residual(gap) = residual(gap) + state%unknown(gap)
+        call mouth_state(bearing%feed, j, state%unknown, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        residual(flow) = residual(flow) + law(1)/feed%size(mouth_flow)
+      end do
+    end associate
+    call line_residual(bearing, state, residual)
+  end subroutine feed_residual
+
+  !> Their derivatives.
+  subroutine feed_jacobian(bearing, state, room, matrix)
+    class(bearing_type), intent(in) :: bearing
+    type(bearing_state_type), intent(in) :: state
+    logical, intent(in) :: room
+    Mat, intent(in) :: matrix
+    real(wp) :: law(7), pressure, there
+    PetscInt :: own(mouth_unknowns)
+    integer :: j
+
+    there = merge(0.0_wp, 1.0_wp, room)
+    associate (feed => bearing%feed)
+      do j = 1, size(feed%mouth)
+        own = numbers_of(feed, j)
+        associate (mouth => feed%mouth(j), pad => bearing%pad(feed%mouth(j)%pad))
+          call add_block(matrix, merge(-1_pint, number(pad%first + mouth%node), pad%film%fixed(mouth%node)), own(mouth_flow:mouth_flow), &
+                         -there*mouth%part*feed%size(mouth_flow)*mouth%weight)
+          call add_block(matrix, own(mouth_mean:mouth_mean), number(pad%first + mouth%node), -there*mouth%weight/feed%size(mouth_mean))
+        end associate
+        call add_gap_row(bearing, j, there, matrix)
+        if (.not. bearing%last_rank) cycle
+        call add_block(matrix, own(mouth_mean:mouth_mean), own(mouth_mean:mouth_mean), [there])
+        call add_block(matrix, own(mouth_gap:mouth_gap), own(mouth_gap:mouth_gap), [there])
+        law = 0.0_wp
+        if (.not. room) call mouth_state(bearing%feed, j, state%unknown, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        call add_block(matrix, own(mouth_flow:mouth_flow), own, law(2:4)*feed%size/feed%size(mouth_flow))
+      end do
+    end associate
+    call line_jacobian(bearing, state, room, matrix)
+  end subroutine feed_jacobian
+
+  !> What moves the gap at a mouth's centre: foil and shaft.
+  subroutine add_gap_row(bearing, j, factor, matrix)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: j !! of the mouth
+    real(wp), intent(in) :: factor !! 0: makes room [1]
+    Mat, intent(in) :: matrix
+    real(wp) :: by_shaft(size(bearing%coordinate))
+    PetscInt :: row(1)
+    integer :: k
+
+    row = number([bearing%feed%place(j, mouth_gap)])
+    associate (feed => bearing%feed, mouth => bearing%feed%mouth(j))
+      call add_foil_of_gap(bearing, j, factor, matrix)
+      associate (film => bearing%pad(mouth%pad)%film)
+        do k = 1, size(by_shaft)
+          by_shaft(k) = -factor*dot_product(mouth%centre_weight, film%motion(bearing%coordinate(k), mouth%centre_node))/feed%size(mouth_gap)
+        end do
+      end associate
+      call add_block(matrix, row, number([(bearing%first_shaft + k, k=1, size(by_shaft))]), by_shaft)
+    end associate
+  end subroutine add_gap_row
+
+  !> The foil's part of that row.
+  subroutine add_foil_of_gap(bearing, j, factor, matrix)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: j
+    real(wp), intent(in) :: factor
+    Mat, intent(in) :: matrix
+    PetscInt :: row(1)
+    integer :: source(size(bearing%feed%mouth(j)%centre_node))
+
+    row = number([bearing%feed%place(j, mouth_gap)])
+    associate (feed => bearing%feed, mouth => bearing%feed%mouth(j), pad => bearing%pad(bearing%feed%mouth(j)%pad))
+      source = pad%foil%source(mouth%centre_node)
+      call add_block(matrix, row, merge(number(pad%first + source), -1_pint, source > 0), &
+                     -factor*mouth%centre_weight*pad%foil%rate(mouth%centre_node)/feed%size(mouth_gap))
+    end associate
+  end subroutine add_foil_of_gap
+
+  !> The gap at the mouths follows the shaft.
+  subroutine feed_column(bearing, state, coordinate, column)
+    class(bearing_type), intent(in) :: bearing
+    type(bearing_state_type), intent(in) :: state
+    integer, intent(in) :: coordinate
+    real(wp), intent(inout) :: column(:)
+    type(line_point_type) :: here
+    integer :: j, i, gap
+
+    associate (feed => bearing%feed)
+      do j = 1, size(feed%mouth)
+        gap = feed%place(j, mouth_gap)
+        associate (mouth => feed%mouth(j))
+          column(gap) = column(gap) - dot_product(mouth%centre_weight, &
+                                                  bearing%pad(mouth%pad)%film%motion(coordinate, mouth%centre_node))/feed%size(mouth_gap)
+        end associate
+      end do
+      do j = 1, size(feed%line)
+        associate (line => feed%line(j), pad => bearing%pad(feed%line(j)%pad))
+          do i = 1, size(line%orifices)
+            here = line_point(bearing, j, i, state)
+            call add_to_film(pad%film%fixed, line%node, -line%shape(:, i)*line%orifices(i)*here%by_gap*line%motion(coordinate, i), &
+                             column(pad%first + 1:pad%last))
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine feed_column
+
+  !> Adds to the equations of film nodes, but for those of given pressure.
+  pure subroutine add_to_film(fixed, node, value, residual)
+    logical, intent(in) :: fixed(:)
+    integer, intent(in) :: node(:)
+    real(wp), intent(in) :: value(:)
+    real(wp), intent(inout) :: residual(:) !! of the pad
+    integer :: a
+
+    do a = 1, size(node)
+      if (.not. fixed(node(a))) residual(node(a)) = residual(node(a)) + value(a)
+    end do
+  end subroutine add_to_film
+
+  !> What happens at a point of a line.
+  pure type(line_point_type) function line_point(bearing, j, i, state) result(here)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: j, i !! piece of a line, its point
+    type(bearing_state_type), intent(in) :: state
+
+    associate (feed => bearing%feed, line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad))
+      here%pressure = dot_product(line%shape(:, i), state%unknown(pad%first + line%node))
+      here%gap = dot_product(line%shape(:, i), state%gap(pad%first_node + line%node)) &
+        + dot_product(line%motion_excess(:, i), state%point%place)
+      call orifice_flow(feed%orifice, here%pressure, here%gap, here%flow, here%by_pressure, here%by_gap)
+      if (.not. allocated(line%past)) return
+      here%flow = here%flow - feed%volume*feed%storage*here%pressure - line%past(i)
+      here%by_pressure = here%by_pressure - feed%volume*feed%storage
+    end associate
+  end function line_point
+
+  !> What lines feed.
+  subroutine line_residual(bearing, state, residual)
+    class(bearing_type), intent(in) :: bearing
+    type(bearing_state_type), intent(in) :: state
+    real(wp), intent(inout) :: residual(:)
+    type(line_point_type) :: here
+    integer :: j, i
+
+    do j = 1, size(bearing%feed%line)
+      associate (line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad))
+        do i = 1, size(line%orifices)
+          here = line_point(bearing, j, i, state)
+          call add_to_film(pad%film%fixed, line%node, -line%shape(:, i)*line%orifices(i)*here%flow, residual(pad%first + 1:pad%last))
+        end do
+      end associate
+    end do
+  end subroutine line_residual
+
+  !> The derivatives.
+  subroutine line_jacobian(bearing, state, room, matrix)
+    class(bearing_type), intent(in) :: bearing
+    type(bearing_state_type), intent(in) :: state
+    logical, intent(in) :: room
+    Mat, intent(in) :: matrix
+    type(line_point_type) :: here
+    integer :: j, i
+
+    here = line_point_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    do j = 1, size(bearing%feed%line)
+      do i = 1, size(bearing%feed%line(j)%orifices)
+        if (.not. room) here = line_point(bearing, j, i, state)
+        call add_line_block(bearing, j, i, here%by_pressure, here%by_gap, matrix)
+        call add_line_shaft(bearing, j, i, here%by_gap, matrix)
+      end do
+    end do
+  end subroutine line_jacobian
+
+  !> Film rows by pressures, and by what moves the foil, at a point of a line.
+  subroutine add_line_block(bearing, j, i, by_pressure, by_gap, matrix)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: j, i
+    real(wp), intent(in) :: by_pressure, by_gap !! of what an orifice feeds
+    Mat, intent(in) :: matrix
+    real(wp) :: block(2*size(bearing%feed%line(j)%node), size(bearing%feed%line(j)%node)) ! a row in each column
+    PetscInt :: row(size(block, 2)), column(size(block, 1))
+    integer :: n, source(size(row))
+
+    n = size(row)
+    associate (line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad))
+      row = merge(-1_pint, number(pad%first + line%node), pad%film%fixed(line%node))
+      column(:n) = number(pad%first + line%node)
+      source = pad%foil%source(line%node)
+      column(n + 1:) = merge(number(pad%first + source), -1_pint, source > 0)
+      block(:n, :) = -line%orifices(i)*by_pressure*spread(line%shape(:, i), 2, n)*spread(line%shape(:, i), 1, n)
+      block(n + 1:, :) = -line%orifices(i)*by_gap*spread(line%shape(:, i)*pad%foil%rate(line%node), 2, n)*spread(line%shape(:, i), 1, n)
+      call add_block(matrix, row, column, block)
+    end associate
+  end subroutine add_line_block
+
+  !> The same by the shaft.
+  subroutine add_line_shaft(bearing, j, i, by_gap, matrix)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: j, i
+    real(wp), intent(in) :: by_gap
+    Mat, intent(in) :: matrix
+    PetscInt, allocatable :: row(:)
+    integer :: k
+
+    associate (line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad), coordinate => bearing%coordinate)
+      row = merge(-1_pint, number(pad%first + line%node), pad%film%fixed(line%node))
+      call add_block(matrix, row, number([(bearing%first_shaft + k, k=1, size(coordinate))]), &
+                     -line%orifices(i)*by_gap*spread(line%motion(coordinate, i), 2, size(row))*spread(line%shape(:, i), 1, size(coordinate)))
+    end associate
+  end subroutine add_line_shaft
+
+  !> What pockets store, by the unknowns; and what of the gap at mouths and lines comes by the foil.
+  subroutine feed_rates(bearing, kind, state, matrix)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: kind
+    type(bearing_state_type), intent(in) :: state
+    Mat, intent(in) :: matrix
+    type(line_point_type) :: here
+    real(wp) :: law(7), pressure
+    PetscInt :: own(mouth_unknowns)
+    integer :: j, i
+
+    associate (feed => bearing%feed)
+      do j = 1, size(feed%mouth)
+        if (kind == flow_by_gap) call add_foil_of_gap(bearing, j, 1.0_wp, matrix)
+        if (kind /= squeeze .or. .not. bearing%last_rank) cycle
+        call mouth_state(bearing%feed, j, state%unknown, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        own = numbers_of(feed, j)
+        call add_block(matrix, own(mouth_flow:mouth_flow), own, feed%volume*law(5:7)*feed%size/feed%size(mouth_flow))
+      end do
+      do j = 1, size(feed%line)
+        do i = 1, size(feed%line(j)%orifices)
+          if (kind == squeeze) call add_line_block(bearing, j, i, -feed%volume, 0.0_wp, matrix)
+          if (kind /= flow_by_gap) cycle
+          here = line_point(bearing, j, i, state)
+          call add_line_block(bearing, j, i, 0.0_wp, here%by_gap, matrix)
+        end do
+      end do
+    end associate
+  end subroutine feed_rates
+
+  !> From now on pockets store gas: what they held at the last two steps.
+  subroutine prepare_feed(bearing, weight, now, before)
+    class(bearing_type), intent(inout) :: bearing
+    real(wp), intent(in) :: weight(0:2)
+    Vec, intent(in) :: now, before
+    real(wp) :: unknown(bearing%local_size(), 2), law(7), pressure
+    integer :: j, k
+
+    if (.not. bearing%feed%volume > 0.0_wp) return
+    call bearing%get_unknowns(unknown(:, 1), now)
+    call bearing%get_unknowns(unknown(:, 2), before)
+    associate (feed => bearing%feed)
+      if (.not. allocated(feed%past)) allocate (feed%past(size(feed%mouth)))
+      feed%storage = weight(0)
+      feed%past = 0.0_wp
+      do j = 1, size(feed%mouth)
+        do k = 1, 2
+          call mouth_state(bearing%feed, j, unknown(:, k), bearing%pad(1)%film%flow%viscosity, law, pressure)
+          feed%past(j) = feed%past(j) + weight(k)*feed%volume*pressure
+        end do
+      end do
+      do j = 1, size(feed%line)
+        associate (line => feed%line(j), before_pad => bearing%pad(feed%line(j)%pad)%first)
+          line%past = feed%volume*matmul(weight(1)*unknown(before_pad + line%node, 1) + weight(2)*unknown(before_pad + line%node, 2), line%shape)
+        end associate
+      end do
+    end associate
+  end subroutine prepare_feed
+
+  !> A steady state again.
+  subroutine end_feed(bearing)
+    class(bearing_type), intent(inout) :: bearing
+    integer :: j
+
+    associate (feed => bearing%feed)
+      feed%storage = 0.0_wp
+      if (allocated(feed%past)) deallocate (feed%past)
+      if (.not. allocated(feed%line)) return
+      do j = 1, size(feed%line)
+        if (allocated(feed%line(j)%past)) deallocate (feed%line(j)%past)
+      end do
+    end associate
+  end subroutine end_feed
+
+  !> Numbers of a mouth's unknowns.
+  pure function numbers_of(feed, j) result(own)
+    type(film_feed_type), intent(in) :: feed
+    integer, intent(in) :: j !! of the mouth
+    PetscInt :: own(mouth_unknowns)
+    own = number(feed%place(j, [mouth_flow, mouth_mean, mouth_gap]))
+  end function numbers_of
+
+  !> Local numbers of PETSc, from 0.
+  elemental function number(place)
+    integer, intent(in) :: place !! from 1
+    integer(pint) :: number
+    number = int(place - 1, pint)
+  end function number
+end module gfb_feed_block

@@ -1,0 +1,240 @@
+!> From `&feed` to what feeds a bearing's films: the porous wall, mouths on the nodes of this rank, rows that are spread along sides
+!> of elements.
+module gfb_feed_builder
+  use gfb_kinds, only: wp
+  use gfb_units, only: turn, pi
+  use gfb_bearing, only: bearing_type
+  use gfb_bearing_case, only: bearing_case_type, pad_angle
+  use gfb_fed_mouth, only: mouth_type, find_mouth
+  use gfb_feed_case, only: feed_case_type, hole_type, find_holes, feed_porous, spread_line
+  use gfb_feed_law, only: porous_wall_type, orifice_type, largest_orifice_flow
+  use gfb_film_feed, only: film_feed_type, fed_mouth_type, fed_line_type, mouth_flow, mouth_mean, mouth_gap
+  use gfb_film_mesh, only: film_mesh_type
+  use gfb_pad, only: pad_type
+  use gfb_scene, only: scene_type
+  implicit none (type, external)
+  private
+  public :: find_feed, take_feed_numbers
+
+  real(wp), parameter :: near = 1.0e-6_wp !! of an element: on a side [1]
+
+  !> Places and weights of the points of a line's element, for two nodes and for three [1].
+  real(wp), parameter :: two_points(2) = 0.5_wp + 0.5_wp/sqrt(3.0_wp)*[-1.0_wp, 1.0_wp]
+  real(wp), parameter :: three_points(3) = 0.5_wp + 0.5_wp*sqrt(0.6_wp)*[-1.0_wp, 0.0_wp, 1.0_wp]
+  real(wp), parameter :: three_weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
+
+contains
+
+  !> Finds where films are fed, before their equations are numbered.
+  subroutine find_feed(scene, film, pads, pad, feed)
+    type(scene_type), intent(in) :: scene !! what is asked for
+    type(film_mesh_type), intent(in) :: film !! mesh of the first pad
+    integer, intent(in) :: pads !! of the bearing, or of two of them
+    type(pad_type), intent(in) :: pad !! the first one, with this rank's nodes; the others have the same
+    type(film_feed_type), allocatable, intent(out) :: feed !! without numbers; none where nothing feeds them
+    type(hole_type), allocatable :: hole(:)
+    integer :: i, k
+
+    if (.not. scene%feed%present) return
+    allocate (feed)
+    allocate (feed%mouth(0), feed%line(0))
+    if (.not. scene%feed%has_orifices()) return
+    do i = 1, pads
+      associate (number => modulo(i - 1, scene%bearing%pads) + 1)
+        if (scene%feed%spread == spread_line) then
+          call add_lines(scene, film, i, pad, feed%line)
+        else
+          call find_holes(scene%feed, scene%bearing, number, hole)
+          do k = 1, size(hole)
+            if (film%half .and. hole(k)%along < -near*film%row_axial(2)) cycle ! it is another's mirror image
+            feed%mouth = [feed%mouth, mouth_on_rank(scene%feed, film, i, hole(k), pad)]
+          end do
+        end if
+      end associate
+    end do
+  end subroutine find_feed
+
+  !> A mouth by the nodes of it that this rank owns.
+  function mouth_on_rank(given, film, number, hole, pad) result(mouth)
+    type(feed_case_type), intent(in) :: given
+    type(film_mesh_type), intent(in) :: film
+    integer, intent(in) :: number !! of the pad
+    type(hole_type), intent(in) :: hole
+    type(pad_type), intent(in) :: pad
+    type(fed_mouth_type) :: mouth
+    type(mouth_type) :: whole
+
+    call find_mouth(film, hole%angle, hole%along, 0.5_wp*given%mouth_diameter, whole)
+    mouth%pad = number
+    mouth%number = hole%number
+    mouth%mirror = hole%number
+    associate (rows => size(given%row_positions), holes => given%holes_of_row())
+      if (film%half) mouth%mirror = hole%number + holes*(rows + 1 - 2*hole%row)
+    end associate
+    mouth%angle = hole%angle
+    mouth%along = hole%along
+    mouth%lack = whole%lack
+    mouth%part = whole%part
+    ! Motions against the mirror image leave the middle as it is.
+    if (film%opposite .and. whole%part < 1.0_wp) whole%weight = 0.0_wp
+    if (film%opposite .and. whole%part < 1.0_wp) whole%centre_weight = 0.0_wp
+    call own_nodes(pad, whole%node, whole%weight, mouth%node, mouth%weight)
+    call own_nodes(pad, whole%centre_node, whole%centre_weight, mouth%centre_node, mouth%centre_weight)
+  end function mouth_on_rank
+
+  !> Nodes of the whole mesh that this rank owns, by its own numbers.
+  subroutine own_nodes(pad, whole, weight, node, own_weight)
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: whole(:)
+    real(wp), intent(in) :: weight(:)
+    integer, allocatable, intent(out) :: node(:)
+    real(wp), allocatable, intent(out) :: own_weight(:)
+    integer :: i, here
+
+    allocate (node(0), own_weight(0))
+    do i = 1, size(whole)
+      here = findloc(pad%mesh%mesh_node, whole(i), 1)
+      if (here == 0) cycle
+      if (.not. pad%mesh%owned(here)) cycle
+      node = [node, here]
+      own_weight = [own_weight, weight(i)]
+    end do
+  end subroutine own_nodes
+
+  !> Rows of orifices that are spread: lower sides of this rank's elements on them.
+  subroutine add_lines(scene, film, number, pad, lines)
+    type(scene_type), intent(in) :: scene
+    type(film_mesh_type), intent(in) :: film
+    integer, intent(in) :: number !! of the pad
+    type(pad_type), intent(in) :: pad
+    type(fed_line_type), allocatable, intent(inout) :: lines(:)
+    type(fed_line_type) :: line
+    real(wp), allocatable :: weight(:)
+    real(wp) :: apart
+    integer :: row, element
+
+    apart = near*minval(film%row_axial(2:) - film%row_axial(:size(film%row_axial) - 1))
+    call line_rule(film%order, line%shape, weight)
+    line%pad = number
+    do row = 1, size(scene%feed%row_positions)
+      associate (along => scene%feed%row_positions(row))
+        if (film%half .and. along < -apart) cycle
+        if (film%half .and. film%opposite .and. abs(along) <= apart) cycle
+        do element = 1, size(pad%film%element_nodes, 2)
+          line%node = lower_side(pad%film%element_nodes(:, element))
+          if (any(abs(pad%film%axial(line%node) - along) > apart)) cycle
+          line%orifices = orifices_of(scene%feed, scene%bearing, line_arc(pad%film%angle(line%node)))*weight
+          if (film%half .and. abs(along) <= apart) line%orifices = 0.5_wp*line%orifices
+          lines = [lines, line]
+        end do
+      end associate
+    end do
+  end subroutine add_lines
+
+  !> Nodes of an element's side where its rows begin.
+  pure function lower_side(nodes) result(side)
+    integer, intent(in) :: nodes(:)
+    integer, allocatable :: side(:)
+
+    if (size(nodes) == 4) then
+      side = nodes(1:2)
+    else
+      side = nodes([1, 4, 7])
+    end if
+  end function lower_side
+
+  !> Angle from the first to the last node of a side; that which closes a ring reaches beyond the last station.
+  pure real(wp) function line_arc(angle) result(arc)
+    real(wp), intent(in) :: angle(:) !! of its nodes [rad]
+    arc = modulo(angle(size(angle)) - angle(1), turn)
+  end function line_arc
+
+  !> How many orifices an arc stands for.
+  pure real(wp) function orifices_of(feed, bearing, arc) result(orifices)
+    type(feed_case_type), intent(in) :: feed
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp), intent(in) :: arc !! [rad]
+    orifices = real(feed%holes_of_row(), wp)*arc/merge(pad_angle(bearing), turn, bearing%row%has_sectors)
+  end function orifices_of
+
+  !> Shape functions at the points of a side, and the points' weights.
+  pure subroutine line_rule(order, shape, weight)
+    integer, intent(in) :: order !! of the elements
+    real(wp), allocatable, intent(out) :: shape(:, :) !! (nodes, points) [1]
+    real(wp), allocatable, intent(out) :: weight(:)   !! adding up to one [1]
+
+    if (order == 1) then
+      allocate (shape(2, 2))
+      shape(1, :) = 1.0_wp - two_points
+      shape(2, :) = two_points
+      weight = [0.5_wp, 0.5_wp]
+    else
+      allocate (shape(3, 3))
+      associate (t => three_points, rest => 1.0_wp - three_points)
+        shape(1, :) = rest*(rest - t)
+        shape(2, :) = 4.0_wp*rest*t
+        shape(3, :) = t*(t - rest)
+      end associate
+      weight = three_weights
+    end if
+  end subroutine line_rule
+
+  !> Gives a bearing the numbers of what feeds it; where it is fed stays.
+  subroutine take_feed_numbers(scene, bearing)
+    type(scene_type), intent(in) :: scene !! with the same places
+    class(bearing_type), intent(inout) :: bearing !! whose pads stand in their places
+    integer :: i, k, n
+
+    if (.not. scene%feed%present) return
+    associate (given => scene%feed, feed => bearing%feed)
+      feed%energy = given%energy
+      if (given%kind == feed_porous) then
+        feed%wall = wall_of(scene)
+        do i = 1, size(bearing%pad)
+          bearing%pad(i)%film%wall = feed%wall
+        end do
+        return
+      end if
+      feed%orifice = orifice_type(given%restriction, given%supply_pressure, given%energy, given%specific_heat_ratio, &
+                                  given%discharge_coefficient, given%orifice_diameter, given%mouth_diameter, given%flows_back())
+      feed%volume = given%pocket_volume
+      feed%size(mouth_flow) = largest_orifice_flow(feed%orifice, bearing%clearance)
+      feed%size(mouth_mean) = bearing%ambient_pressure
+      feed%size(mouth_gap) = bearing%clearance
+      do i = 1, size(feed%line)
+        associate (line => feed%line(i), film => bearing%pad(feed%line(i)%pad)%film)
+          n = size(line%node)
+          associate (angle => unwound(film%angle(line%node)), along => film%axial(line%node))
+            line%motion_excess = film%surface%motion_excess(line%shape, angle, along)
+          end associate
+          line%motion = line%motion_excess
+          do k = 1, n
+            line%motion(:, k) = line%motion(:, k) + matmul(film%motion(:, line%node), line%shape(:, k))
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine take_feed_numbers
+
+  !> Angles of a side's nodes, rising.
+  pure function unwound(angle) result(rising)
+    real(wp), intent(in) :: angle(:) !! [rad]
+    real(wp) :: rising(size(angle))
+    rising = merge(angle + turn, angle, maxval(angle) - angle > pi)
+  end function unwound
+
+  !> The porous wall, as thick as its flow sees it: of a journal's, which widens outwards, \( R \ln(1 + H/R) \).
+  pure type(porous_wall_type) function wall_of(scene) result(wall)
+    type(scene_type), intent(in) :: scene
+
+    associate (given => scene%feed, bearing => scene%bearing)
+      wall%present = .true.
+      wall%supply_pressure = given%supply_pressure
+      wall%thickness = given%wall_thickness
+      if (.not. bearing%row%has_sectors) wall%thickness = bearing%radius*log(1.0_wp + given%wall_thickness/bearing%radius)
+      wall%resistance = scene%gas%viscosity/given%permeability
+      wall%inertia = given%inertia_coefficient/given%energy
+    end associate
+  end function wall_of
+
+end module gfb_feed_builder

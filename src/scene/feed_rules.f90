@@ -1,0 +1,111 @@
+!> What a film that is fed under pressure asks of the scene.
+module gfb_feed_rules
+  use gfb_kinds, only: wp
+  use gfb_units, only: turn
+  use gfb_bearing_case, only: pad_angle
+  use gfb_bearing_row, only: needs_thrust
+  use gfb_case_keys, only: case_keys_type
+  use gfb_feed_case, only: feed_group, feed_porous, hole_type, find_holes, spread_rim
+  use gfb_film_surface, only: film_surface_type
+  use gfb_bearing_case, only: surface_of
+  use gfb_gas_law, only: density_peng_robinson, density_table
+  use gfb_model_case, only: coupling_partitioned
+  use gfb_scene, only: scene_type
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: check_feed
+
+  real(wp), parameter :: thin_wall = 0.2_wp !! of the film's width: gas flows along a thicker one [1]
+
+contains
+
+  !> Checks what the supply asks of bearing, model and gas.
+  subroutine check_feed(keys, scene)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(scene_type), intent(in) :: scene !! what the case file asks for
+
+    if (.not. scene%feed%present .or. .not. scene%general%analysis%has_film) return
+    associate (feed => scene%feed, model => scene%model, bearing => scene%bearing, gas => scene%gas)
+      if (keys%meant(feed_group, 'supply_pressure') .and. gas%ambient_pressure > 0.0_wp .and. &
+          feed%supply_pressure > 0.0_wp .and. feed%supply_pressure <= gas%ambient_pressure) then
+        call keys%warn(feed_group, 'supply_pressure', 'is not above the ambient pressure of '// &
+                       text(gas%ambient_pressure)//' Pa: nothing is fed. It is absolute')
+      end if
+      call keys%rule(feed_group, 'kind', scene%thermal%present, 'cannot stand beside &thermal '// &
+                     'in this version')
+      call keys%rule(feed_group, 'kind', any(gas%law%density == &
+                     [density_peng_robinson, density_table]), 'cannot stand beside '// &
+                     'equation_of_state or a table of the gas in this version')
+      call keys%rule(feed_group, 'kind', bearing%play > 0.0_wp, 'cannot stand beside axial_play '// &
+                     'in &bearing in this version')
+      call keys%rule('model', 'coupling', model%coupling == coupling_partitioned, &
+                     "must be 'monolithic' with &feed")
+      call keys%rule(feed_group, 'kind', feed%kind == feed_porous .and. model%foil%has_top_foil, &
+                     "must be 'orifices' under a top foil, through which no wall feeds")
+      call keys%rule(feed_group, 'through', feed%has_orifices() .and. model%foil%has_top_foil .and. &
+                     feed%through == 0 .and. model%foil%is_known(), "must be given, 'top_foil': "// &
+                     'holes of the sleeve end under the foil')
+      call keys%rule(feed_group, 'through', feed%through > 0 .and. model%foil%is_known() .and. &
+                     .not. model%foil%has_top_foil, "needs a top foil: foil = 'beam', 'plate' or "// &
+                     "'shell' in &model")
+      call keys%rule('bearing', 'inner_edge', bearing%inner_edge > 1 .and. &
+                     .not. bearing%row%has_sectors, needs_thrust)
+      if (feed%kind == feed_porous .and. min(feed%wall_thickness, bearing%length) > 0.0_wp) then
+        if (feed%wall_thickness > thin_wall*bearing%length) then
+          call keys%warn(feed_group, 'wall_thickness', 'is more than a fifth of the width of '// &
+                         text(bearing%length)//' m: gas flows along the wall, too, which is not '// &
+                         'modelled')
+        end if
+      end if
+      if (feed%has_orifices()) call check_mouths(keys, scene)
+    end associate
+  end subroutine check_feed
+
+  !> Mouths lie on a pad, and not on each other.
+  subroutine check_mouths(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    type(hole_type), allocatable :: hole(:)
+    type(film_surface_type) :: surface
+    character(len=:), allocatable :: key
+    real(wp) :: half, start, arc, apart
+    integer :: pad, i, k, found
+
+    associate (feed => scene%feed, bearing => scene%bearing)
+      if (.not. allocated(feed%row_positions)) return
+      if (min(bearing%radius, bearing%length, feed%mouth_diameter) <= 0.0_wp) return
+      if (size(feed%row_positions) == 0 .or. feed%holes_of_row() < 1) return
+      if (feed%spread /= spread_rim) return
+      surface = surface_of(bearing)
+      key = 'orifices'
+      if (size(feed%orifice_angles) > 0) key = 'orifice_angles'
+      start = bearing%leading_edge_angle
+      arc = pad_angle(bearing)
+      found = 0
+      do pad = 1, bearing%pads
+        call find_holes(feed, bearing, pad, hole)
+        found = found + size(hole)
+        do i = 1, size(hole)
+          half = 0.5_wp*feed%mouth_diameter/max(surface%radius_at(hole(i)%along), tiny(half))
+          if (.not. bearing%is_ring() .and. arc < turn .and. &
+              (hole(i)%angle - half <= start .or. hole(i)%angle + half >= start + arc)) then
+            call keys%complain(feed_group, key, 'puts the mouth of orifice '// &
+                               text(hole(i)%number)//' across an edge of pad '//text(pad))
+            return
+          end if
+          do k = 1, i - 1
+            apart = modulo(hole(i)%angle - hole(k)%angle + 0.5_wp*turn, turn) - 0.5_wp*turn
+            apart = hypot(apart*surface%radius_at(hole(i)%along), hole(i)%along - hole(k)%along)
+            if (apart >= feed%mouth_diameter) cycle
+            call keys%complain(feed_group, key, 'makes mouths overlap: those of orifices '// &
+                               text(hole(k)%number)//' and '//text(hole(i)%number)//' are '// &
+                               text(apart, 4)//' m apart')
+            return
+          end do
+        end do
+      end do
+      call keys%rule(feed_group, key, found == 0, 'leaves no orifice on a pad')
+    end associate
+  end subroutine check_mouths
+end module gfb_feed_rules
