@@ -41,7 +41,7 @@ module gfb_restart_file
     procedure :: is_due, is_due_after, may_be_written, tell
   end type restart_type
 
-  integer, parameter :: format = 9 !! of the file; the first one had none to say
+  integer, parameter :: format = 10 !! of the file; the first one had none to say
   !> Root mean square of the scaled residual beyond which a state that was read is no answer: a thousand times what answers
   !> have [1].
   real(wp), parameter, public :: no_answer = 1.0e-5_wp

@@ -7,7 +7,7 @@ module gfb_feed_law
   use gfb_units, only: pi
   implicit none (type, external)
   private
-  public :: wall_source, orifice_flow, largest_orifice_flow, critical_ratio, rim_pressure
+  public :: supply_at, wall_source, orifice_flow, largest_orifice_flow, critical_ratio, rim_pressure
 
   integer, parameter, public :: restriction_series = 1  !! hole and curtain, one behind the other
   integer, parameter, public :: restriction_curtain = 2 !! the gap around the mouth
@@ -38,6 +38,16 @@ module gfb_feed_law
   end type orifice_type
 
 contains
+
+  !> Pressure of a supply of which a part counts [Pa].
+  elemental real(wp) function supply_at(supply, ambient, part) result(pressure)
+    real(wp), intent(in) :: supply  !! p_s, absolute [Pa]
+    real(wp), intent(in) :: ambient !! p_a [Pa]
+    real(wp), intent(in) :: part    !! of what it has above that [1]
+
+    pressure = supply
+    if (abs(part - 1.0_wp) > 0.0_wp) pressure = ambient + part*(supply - ambient)
+  end function supply_at
 
   !> What a porous wall feeds into the film over it, of an area, and its derivative by the pressure.
   !>

@@ -23,15 +23,13 @@ module gfb_bearing
   use gfb_local_exchange, only: local_exchange_type
   use gfb_pad, only: pad_type
   use gfb_bearing_heat, only: film_heat_type, moduli_at
-  use gfb_film_feed, only: film_feed_type, mouth_unknowns, mouth_mean
+  use gfb_film_feed, only: film_feed_type, mouth_unknowns, mouth_flow, mouth_mean, mouth_gap
   use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_spring_history, only: foil_dampers_type
   use gfb_vibration_equations, only: vibration_equations_type
   implicit none (type)
   private
   public :: places_of
-
-  real(wp), parameter :: fed_at_rest = 0.3_wp !! of the way from ambient to supply pressure, where a search begins [1]
 
   !> A state of a bearing, as its equations ask for it.
   type, public :: bearing_state_type
@@ -622,25 +620,17 @@ contains
     end do
   end subroutine put_pressure
 
-  !> Puts the films' gas as it is before a search: at ambient pressure, and where it is fed at a part of the way to the supply's.
+  !> Puts the films' gas at ambient pressure, which a supply that is off leaves as it is.
   pure subroutine put_gas_at_rest(self, unknown)
     class(bearing_type), intent(in) :: self !! the bearing
     real(wp), intent(inout) :: unknown(:) !! local, in SI
-    integer :: i, k, scalars
 
     call self%put_pressure(spread(self%ambient_pressure, 1, self%film_nodes()), unknown)
     if (.not. allocated(self%feed)) return
-    scalars = mouth_unknowns*size(self%feed%mouth)
-    associate (fed => self%ambient_pressure + fed_at_rest*(self%feed%supply_pressure() - self%ambient_pressure), first => self%feed%first)
-      do i = 1, size(self%pad)
-        associate (pad => self%pad(i))
-          do k = 1, size(pad%film%fixed)
-            if (.not. pad%film%fixed(k)) unknown(pad%first + k) = fed
-          end do
-        end associate
-      end do
-      unknown(first + 1:first + scalars) = 1.0_wp
-      unknown(first + mouth_mean:first + scalars:mouth_unknowns) = fed/self%ambient_pressure
+    associate (first => self%feed%first, last => self%feed%first + mouth_unknowns*size(self%feed%mouth))
+      unknown(first + mouth_flow:last:mouth_unknowns) = 0.0_wp
+      unknown(first + mouth_mean:last:mouth_unknowns) = 1.0_wp
+      unknown(first + mouth_gap:last:mouth_unknowns) = 1.0_wp
     end associate
   end subroutine put_gas_at_rest
 

@@ -42,7 +42,7 @@ contains
           if (.not. film%wall%present) cycle
           do element = 1, size(film%element_nodes, 2)
             associate (nodes => film%element_nodes(:, element))
-              total = total + film%copies*wall_flow(film%geometry(element), film%wall, &
+              total = total + film%copies*wall_flow(film%geometry(element), film%wall_at(point), &
                                                     unknown(pad%first + nodes))
             end associate
           end do
@@ -53,7 +53,7 @@ contains
           line_flow(bearing, j, point, unknown, gap)
       end do
       total = sum_over_ranks(total)
-      if (size(feed%mouth) > 0) call read_mouths(bearing, unknown, total(1), answer)
+      if (size(feed%mouth) > 0) call read_mouths(bearing, point%supply, unknown, total(1), answer)
       answer%flow = total(1)/feed%energy
       associate (ratio => feed%supply_pressure()/bearing%ambient_pressure)
         answer%power = total(1)*log(ratio)
@@ -74,7 +74,7 @@ contains
     total = 0.0_wp
     associate (line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad))
       do i = 1, size(line%orifices)
-        call orifice_flow(bearing%feed%orifice, &
+        call orifice_flow(bearing%feed%orifice_at(point%supply), &
                           dot_product(line%shape(:, i), unknown(pad%first + line%node)), &
                           dot_product(line%shape(:, i), gap(pad%first_node + line%node)) &
                           + dot_product(line%motion_excess(:, i), point%place), &
@@ -85,8 +85,9 @@ contains
   end function line_flow
 
   !> What each orifice does; the same on all ranks, which know all mouths' unknowns.
-  subroutine read_mouths(bearing, unknown, total, answer)
+  subroutine read_mouths(bearing, part, unknown, total, answer)
     class(bearing_type), intent(in) :: bearing
+    real(wp), intent(in) :: part !! of the supply that counts [1]
     real(wp), intent(in) :: unknown(:)
     real(wp), intent(inout) :: total !! flow of all [Pa m3/s]
     type(feed_answer_type), intent(inout) :: answer
@@ -98,8 +99,8 @@ contains
       allocate (answer%orifice(all_of_them), answer%pressure(all_of_them), source=0.0_wp)
       do j = 1, size(feed%mouth)
         associate (mouth => feed%mouth(j))
-          call mouth_state(feed, j, unknown, bearing%pad(mouth%pad)%film%flow%viscosity, law, &
-                           pressure)
+          call mouth_state(feed, j, unknown, part, bearing%pad(mouth%pad)%film%flow%viscosity, &
+                           law, pressure)
           flow = unknown(feed%place(j, mouth_flow))*feed%size(mouth_flow)
           copies = bearing%pad(mouth%pad)%film%copies*mouth%part
           total = total + copies*flow

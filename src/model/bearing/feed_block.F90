@@ -79,7 +79,7 @@ contains
         if (.not. bearing%last_rank) cycle
         residual(mean) = residual(mean) + state%unknown(mean)
         residual(gap) = residual(gap) + state%unknown(gap)
-        call mouth_state(bearing%feed, j, state%unknown, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        call mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
         residual(flow) = residual(flow) + law(1)/feed%size(mouth_flow)
       end do
     end associate
@@ -110,7 +110,7 @@ contains
         call add_block(matrix, own(mouth_mean:mouth_mean), own(mouth_mean:mouth_mean), [there])
         call add_block(matrix, own(mouth_gap:mouth_gap), own(mouth_gap:mouth_gap), [there])
         law = 0.0_wp
-        if (.not. room) call mouth_state(bearing%feed, j, state%unknown, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        if (.not. room) call mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
         call add_block(matrix, own(mouth_flow:mouth_flow), own, law(2:4)*feed%size/feed%size(mouth_flow))
       end do
     end associate
@@ -208,7 +208,7 @@ contains
       here%pressure = dot_product(line%shape(:, i), state%unknown(pad%first + line%node))
       here%gap = dot_product(line%shape(:, i), state%gap(pad%first_node + line%node)) &
         + dot_product(line%motion_excess(:, i), state%point%place)
-      call orifice_flow(feed%orifice, here%pressure, here%gap, here%flow, here%by_pressure, here%by_gap)
+      call orifice_flow(feed%orifice_at(state%point%supply), here%pressure, here%gap, here%flow, here%by_pressure, here%by_gap)
       if (.not. allocated(line%past)) return
       here%flow = here%flow - feed%volume*feed%storage*here%pressure - line%past(i)
       here%by_pressure = here%by_pressure - feed%volume*feed%storage
@@ -305,7 +305,7 @@ contains
       do j = 1, size(feed%mouth)
         if (kind == flow_by_gap) call add_foil_of_gap(bearing, j, 1.0_wp, matrix)
         if (kind /= squeeze .or. .not. bearing%last_rank) cycle
-        call mouth_state(bearing%feed, j, state%unknown, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        call mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
         own = numbers_of(feed, j)
         call add_block(matrix, own(mouth_flow:mouth_flow), own, feed%volume*law(5:7)*feed%size/feed%size(mouth_flow))
       end do
@@ -337,7 +337,7 @@ contains
       feed%past = 0.0_wp
       do j = 1, size(feed%mouth)
         do k = 1, 2
-          call mouth_state(bearing%feed, j, unknown(:, k), bearing%pad(1)%film%flow%viscosity, law, pressure)
+          call mouth_state(bearing%feed, j, unknown(:, k), bearing%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
           feed%past(j) = feed%past(j) + weight(k)*feed%volume*pressure
         end do
       end do

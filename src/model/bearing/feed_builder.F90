@@ -188,6 +188,7 @@ contains
     if (.not. scene%feed%present) return
     associate (given => scene%feed, feed => bearing%feed)
       feed%energy = given%energy
+      feed%ambient = bearing%ambient_pressure
       if (given%kind == feed_porous) then
         feed%wall = wall_of(scene)
         do i = 1, size(bearing%pad)

@@ -7,7 +7,7 @@
 !> law of the orifice, of these three alone.
 module gfb_film_feed
   use gfb_kinds, only: wp
-  use gfb_feed_law, only: porous_wall_type, orifice_type, orifice_flow, rim_pressure
+  use gfb_feed_law, only: porous_wall_type, orifice_type, orifice_flow, rim_pressure, supply_at
   implicit none (type, external)
   private
   public :: mouth_law, mouth_state
@@ -42,6 +42,7 @@ module gfb_film_feed
     type(porous_wall_type) :: wall
     type(orifice_type) :: orifice
     real(wp) :: volume = 0.0_wp       !! of a pocket [m3]
+    real(wp) :: ambient = 0.0_wp      !! p_a [Pa]
     real(wp) :: energy = 0.0_wp       !! Rg T_s, flow in the film's unit over mass [J/kg]
     real(wp) :: flow_size = 1.0_wp    !! of an orifice's flow [Pa m3/s]
     real(wp) :: size(mouth_unknowns) = 1.0_wp !! of a mouth's unknowns [SI]
@@ -51,7 +52,7 @@ module gfb_film_feed
     real(wp) :: storage = 0.0_wp      !! a_0 of a step of time; 0: a steady state [1/s]
     real(wp), allocatable :: past(:)  !! (mouths) what earlier steps store in pockets [Pa m3/s]
   contains
-    procedure, non_overridable :: place, supply_pressure
+    procedure, non_overridable :: place, supply_pressure, orifice_at
   end type film_feed_type
 
 contains
@@ -70,12 +71,22 @@ contains
     pressure = merge(self%wall%supply_pressure, self%orifice%supply_pressure, self%wall%present)
   end function supply_pressure
 
+  !> The orifices with as much of their supply as counts.
+  pure type(orifice_type) function orifice_at(self, part) result(orifice)
+    class(film_feed_type), intent(in) :: self !! what feeds the films
+    real(wp), intent(in) :: part !! of what the supply has above ambient pressure [1]
+
+    orifice = self%orifice
+    orifice%supply_pressure = supply_at(orifice%supply_pressure, self%ambient, part)
+  end function orifice_at
+
   !> The law of one of a bearing's mouths at a state: its value and derivatives by flow, mean
   !> and gap, then those of the pressure in it, in SI.
-  pure subroutine mouth_state(feed, mouth, unknown, viscosity, law, pressure)
+  pure subroutine mouth_state(feed, mouth, unknown, part, viscosity, law, pressure)
     type(film_feed_type), intent(in) :: feed !! with its numbers
     integer, intent(in) :: mouth !! from 1
     real(wp), intent(in) :: unknown(:) !! of the bearing, local
+    real(wp), intent(in) :: part       !! of the supply that counts [1]
     real(wp), intent(in) :: viscosity  !! of the film [Pa s]
     real(wp), intent(out) :: law(7)    !! value, three derivatives, three of the pressure
     real(wp), intent(out) :: pressure  !! in the mouth [Pa]
@@ -86,7 +97,7 @@ contains
     here = unknown(first:first + mouth_unknowns - 1)*feed%size
     past = 0.0_wp
     if (allocated(feed%past)) past = feed%past(mouth)
-    call mouth_law(feed, feed%mouth(mouth)%lack, viscosity, here(mouth_flow), here(mouth_mean), &
+    call mouth_law(feed, feed%orifice_at(part), feed%mouth(mouth)%lack, viscosity, here(mouth_flow), here(mouth_mean), &
                    here(mouth_gap), past, law(1), law(2), law(3), law(4), pressure, law(5), &
                    law(6), law(7))
   end subroutine mouth_state
@@ -97,10 +108,11 @@ contains
   !> $$ q - q_o(p_d, h) + V \frac{dp_d}{dt} = 0 $$
   !>
   !> The gas in the pocket has the supply's temperature, as the film has.
-  elemental subroutine mouth_law(feed, lack, viscosity, flow, mean, gap, past, value, by_flow, &
+  elemental subroutine mouth_law(feed, orifice, lack, viscosity, flow, mean, gap, past, value, by_flow, &
                                  by_mean, by_gap, pressure, pressure_by_flow, pressure_by_mean, &
                                  pressure_by_gap)
-    type(film_feed_type), intent(in) :: feed !! the orifices; `storage` of a step of time
+    type(film_feed_type), intent(in) :: feed !! with `storage` of a step of time
+    type(orifice_type), intent(in) :: orifice !! with the supply that there is
     real(wp), intent(in) :: lack      !! beta of the mouth [1]
     real(wp), intent(in) :: viscosity !! of the film [Pa s]
     real(wp), intent(in) :: flow      !! q into the film [Pa m3/s]
@@ -116,7 +128,7 @@ contains
 
     call rim_pressure(lack, viscosity, mean, flow, gap, pressure, pressure_by_mean, &
                       pressure_by_flow, pressure_by_gap)
-    call orifice_flow(feed%orifice, pressure, gap, through, by_pressure, direct)
+    call orifice_flow(orifice, pressure, gap, through, by_pressure, direct)
     associate (by_p => feed%storage*feed%volume - by_pressure)
       value = flow - through + feed%storage*feed%volume*pressure + past
       by_flow = 1.0_wp + by_p*pressure_by_flow

@@ -13,7 +13,7 @@ module gfb_gas_film
   use gfb_general_film, only: general_residual, general_jacobian
   use gfb_squeeze_term, only: stored_gas, storage_residual, storage_jacobian
   use gfb_film_flow, only: film_flow_type
-  use gfb_feed_law, only: porous_wall_type
+  use gfb_feed_law, only: porous_wall_type, supply_at
   use gfb_wall_film, only: wall_residual, wall_jacobian
   use gfb_reynolds_element, only: reynolds_residual, reynolds_jacobian
   use gfb_heated_film, only: heated_gas_type, heated_state_type, heated_residual, heated_jacobian, &
@@ -69,7 +69,7 @@ module gfb_gas_film
     type(frozen_heat_type), allocatable :: frozen !! none: the gas has the temperature of its law
   contains
     procedure, non_overridable :: put, put_shape, interference
-    procedure, non_overridable :: flow_at, cell_flow, shadow, factors_of, element_gap, softness_of
+    procedure, non_overridable :: flow_at, wall_at, cell_flow, shadow, factors_of, element_gap, softness_of
     procedure, non_overridable :: gap => film_node_gap
     procedure, non_overridable :: excess => film_excess
     procedure, non_overridable :: is_open
@@ -389,6 +389,15 @@ contains
     flow%entraining_speed = entraining_speed(point%speed, self%surface%radius)
   end function flow_at
 
+  !> The porous wall with as much of its supply as counts at an operating point.
+  pure type(porous_wall_type) function wall_at(self, point) result(wall)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    type(operating_point_type), intent(in) :: point !! with the part of the supply
+
+    wall = self%wall
+    wall%supply_pressure = supply_at(wall%supply_pressure, self%ambient_pressure, point%supply)
+  end function wall_at
+
   !> Flow through a cell, that of the pressure and that of the motion: the size of an equation.
   pure function cell_flow(self, point) result(size_of_flow)
     class(gas_film_type), intent(in) :: self !! this rank's film
@@ -521,8 +530,8 @@ contains
                                 self%factors_of(element))
         end if
         if (self%wall%present) then
-          share(:n) = share(:n) + wall_residual(geometry, flow, self%law, self%wall, p(:n), h(:n), &
-                                                excess(:n), self%factors_of(element))
+          share(:n) = share(:n) + wall_residual(geometry, flow, self%law, self%wall_at(point), p(:n), &
+                                                h(:n), excess(:n), self%factors_of(element))
         end if
         if (allocated(self%past)) then
           share(:n) = share(:n) + storage_residual(geometry, flow, self%law, p(:n), h(:n), &
@@ -569,8 +578,8 @@ contains
                               self%factors_of(element))
       end if
       if (self%wall%present) then
-        call wall_jacobian(self%geometry(element), self%flow_at(point), self%law, self%wall, &
-                           p(:n), h(:n), excess(:n), by_pressure, by_gap, by_excess, &
+        call wall_jacobian(self%geometry(element), self%flow_at(point), self%law, &
+                           self%wall_at(point), p(:n), h(:n), excess(:n), by_pressure, by_gap, by_excess, &
                            self%factors_of(element))
       end if
       if (allocated(self%past)) then

@@ -20,6 +20,7 @@ module gfb_operating_point
     !> other's rate [N/m], [N m/rad].
     real(wp) :: inertia(shaft_coordinates, shaft_coordinates) = 0.0_wp
     real(wp) :: growth = 1.0_wp !! part that counts of what temperatures do to radii and gas [1]
+    real(wp) :: supply = 1.0_wp !! part that counts of what a supply has above ambient pressure [1]
     real(wp) :: edge_pull(most_pads) = 0.0_wp !! fictitious, lifts a free edge of the top foils [N]
     real(wp) :: edge_tension(most_pads) = 0.0_wp !! fictitious, keeps that edge straight [N]
     real(wp) :: edge_hold(most_pads) = 0.0_wp !! fictitious, keeps a pad's edge at a height [N/m]
@@ -56,6 +57,7 @@ contains
     point%load = first%load + fraction*(last%load - first%load)
     point%place = first%place + fraction*(last%place - first%place)
     point%growth = first%growth + fraction*(last%growth - first%growth)
+    point%supply = first%supply + fraction*(last%supply - first%supply)
     point%edge_pull = first%edge_pull + fraction*(last%edge_pull - first%edge_pull)
     point%edge_tension = first%edge_tension + fraction*(last%edge_tension - first%edge_tension)
     point%edge_hold = first%edge_hold + fraction*(last%edge_hold - first%edge_hold)
@@ -72,6 +74,7 @@ contains
     call archive%visit('place', point%place)
     call archive%visit('inertia', point%inertia)
     call archive%visit('growth', point%growth)
+    call archive%visit('supply', point%supply)
     call archive%visit('edge_pull', point%edge_pull)
     call archive%visit('edge_tension', point%edge_tension)
     call archive%visit('edge_hold', point%edge_hold)

@@ -83,10 +83,6 @@ contains
     wanted%place(:2) = bearing%eccentricity()
     free = free_position(bearing, wanted)
     call put_at_rest(bearing, free)
-    if (allocated(bearing%feed)) then
-      call newton%log%detail('fixed position at rest, fed')
-      call solve_at(bearing, newton, bearing%point, .true., to_position, report)
-    end if
     call newton%log%detail('fixed position, from rest to speed')
     call follow_path(bearing, newton, free, 1.0_wp, to_position, report)
     report%shaft_fixed = .true.
@@ -136,7 +132,7 @@ contains
     end associate
   end function free_position
 
-  !> Puts the bearing at rest at a fixed position: ambient pressure everywhere, exactly.
+  !> Puts the bearing at rest at a fixed position: ambient pressure everywhere, exactly; a supply is off.
   subroutine put_at_rest(bearing, position)
     type(bearing_system_type), intent(inout) :: bearing
     type(operating_point_type), intent(in) :: position
@@ -144,6 +140,7 @@ contains
 
     bearing%point = position
     bearing%point%speed = 0.0_wp
+    bearing%point%supply = 0.0_wp
     bearing%shaft_fixed = .true.
     unknown = 0.0_wp
     call bearing%put_gas_at_rest(unknown)
