@@ -18,12 +18,20 @@ module small_systems
   integer, parameter, public :: no_root = 2   !! x_i^2 = -i
   integer, parameter, public :: singular = 3  !! x_1 = 2, and all others x_i - x_i = 1
   integer, parameter, public :: bounded = 4   !! atan(x_i - 3) = 0, which full steps overshoot, where x > 0
+  integer, parameter, public :: outside = 5   !! x_i = -1, where x > 0
+  integer, parameter, public :: uphill = 6    !! x_i = 1, with a matrix of the wrong sign
+  integer, parameter, public :: stopped = 7   !! x_i = 1 with a stop at 0.1, which is `hard`
+
+  real(wp), parameter, public :: stop_at = 0.1_wp !! where that begins
 
   !> Equations that are solved for each unknown alone.
   type, extends(nonlinear_system_type), public :: small_type
     integer :: law = squares
     real(wp) :: error(longest) = 0.0_wp !! largest error of the states at which it was linearised
+    real(wp) :: place(longest) = 0.0_wp !! the largest unknown there
     integer :: linearised = 0
+    real(wp) :: hard = 0.0_wp !! stiffness of stops, over that of the springs
+    logical :: closed = .false. !! they were at the last state at which contacts were looked at
     real(wp) :: turning = 0.0_wp !! norm of the residual below which forces have turned against a step
     logical :: traps = .true. !! overflow, zero and invalid stopped the program wherever it was evaluated
   contains
@@ -36,9 +44,9 @@ module small_systems
 contains
 
   !> Residual of an equation, and its derivative.
-  pure subroutine law_at(law, i, x, f, slope)
+  pure subroutine law_at(law, i, x, hard, f, slope)
     integer, intent(in) :: law, i
-    real(wp), intent(in) :: x
+    real(wp), intent(in) :: x, hard
     real(wp), intent(out) :: f, slope
 
     slope = 2.0_wp*x
@@ -50,6 +58,15 @@ contains
     case (bounded)
       f = atan(x - 3.0_wp)
       slope = 1.0_wp/(1.0_wp + (x - 3.0_wp)**2)
+    case (outside)
+      f = x + 1.0_wp
+      slope = 1.0_wp
+    case (uphill)
+      f = x - 1.0_wp
+      slope = -1.0_wp
+    case (stopped)
+      f = x - 1.0_wp + hard*(x - stop_at)
+      slope = 1.0_wp + hard
     case default
       f = merge(x - 2.0_wp, -1.0_wp, i == 1)
       slope = merge(1.0_wp, 0.0_wp, i == 1)
@@ -72,9 +89,9 @@ contains
     self%traps = self%traps .and. all(halts)
     PetscCallA(VecGetOwnershipRange(state, first, last, ierr))
     PetscCallA(GFB_VecGetArrayRead(state, x, ierr))
-    valid = self%law == no_root .or. all(x(:last - first) > 0.0_wp)
+    valid = any(self%law == [no_root, uphill, stopped]) .or. all(x(:last - first) > 0.0_wp)
     do i = 1, int(last - first)
-      call law_at(self%law, int(first) + i, x(i), f, slope)
+      call law_at(self%law, int(first) + i, x(i), merge(self%hard, 0.0_wp, self%closed), f, slope)
       PetscCallA(VecSetValue(residual, first + i - 1_pint, f, INSERT_VALUES, ierr))
     end do
     PetscCallA(GFB_VecRestoreArrayRead(state, x, ierr))
@@ -97,10 +114,11 @@ contains
     self%traps = self%traps .and. all(halts)
     self%linearised = self%linearised + 1
     self%error(min(self%linearised, longest)) = error_of(state)
+    PetscCallA(VecMax(state, PETSC_NULL_INTEGER, self%place(min(self%linearised, longest)), ierr))
     PetscCallA(VecGetOwnershipRange(state, first, last, ierr))
     PetscCallA(GFB_VecGetArrayRead(state, x, ierr))
     do i = 1, int(last - first)
-      call law_at(self%law, int(first) + i, x(i), f, slope)
+      call law_at(self%law, int(first) + i, x(i), merge(self%hard, 0.0_wp, self%closed), f, slope)
       row = first + i - 1
       PetscCallA(MatSetValue(self%jacobian, row, row, slope, INSERT_VALUES, ierr))
     end do
@@ -109,21 +127,32 @@ contains
     PetscCallA(MatAssemblyEnd(self%jacobian, MAT_FINAL_ASSEMBLY, ierr))
   end subroutine linearise_small
 
-  !> Contacts have moved wherever forces may turn.
+  !> Contacts have moved wherever forces may turn, and where there are stops.
   subroutine settle_small(self, state, moved)
     class(small_type), intent(inout) :: self
     Vec, intent(in) :: state
     logical, intent(out) :: moved
+    PetscReal :: largest
+    PetscErrorCode :: ierr
+
     moved = self%turning > 0.0_wp
+    if (self%law /= stopped) return
+    PetscCallA(VecNorm(state, NORM_INFINITY, largest, ierr))
+    moved = self%closed .neqv. largest > stop_at
+    self%closed = largest > stop_at
   end subroutine settle_small
 
-  !> Work along a step, which asks for a far shorter one where forces have turned.
+  !> Work along a step: of springs and stops their own; else one that asks for a far shorter step where forces have turned.
   real(wp) function work_of_small(self, residual, step) result(work)
     class(small_type), intent(in) :: self
     Vec, intent(in) :: residual, step
     PetscReal :: norm
     PetscErrorCode :: ierr
 
+    if (self%law == stopped) then
+      PetscCallA(VecDot(residual, step, work, ierr))
+      return
+    end if
     PetscCallA(VecNorm(residual, NORM_2, norm, ierr))
     work = merge(1.0_wp, -20.0_wp, norm > self%turning)
   end function work_of_small

@@ -159,7 +159,7 @@ contains
 
     PetscCallA(VecCreateSeq(PETSC_COMM_SELF, int(nodes, pint), springs%state, ierr))
     call fill(springs%state, [(merge(gap(i) + 1.0e-3_wp, 0.0_wp, modulo(i, 3) == 0), i=1, nodes)])
-    PetscCallA(MatCreateSeqDense(PETSC_COMM_SELF, int(nodes, pint), int(nodes, pint), PETSC_NULL_SCALAR_ARRAY, springs%jacobian, ierr))
+    PetscCallA(MatCreateSeqAIJ(PETSC_COMM_SELF, int(nodes, pint), int(nodes, pint), int(nodes, pint), PETSC_NULL_INTEGER_ARRAY, springs%jacobian, ierr))
     call springs%linearise(springs%state)
     PetscCallA(SNESCreate(PETSC_COMM_SELF, snes, ierr))
     PetscCallA(SNESGetKSP(snes, linear, ierr))
