@@ -170,12 +170,13 @@ def check_slopes(checks, folder):
     up, down = (solve(folder, f"slope_{sign}", held(5.0e-6 + sign*step))["force_x"] for sign in (1, -1))
     checks.below("K at rest over the slope of the force", -vibration["stiffness_xx"]*2.0*step/(up - down) - 1.0, 1.0e-6)
     loaded = fed(JOURNAL, {"load": [-40.0, 0.0], "speed_rpm": 20000.0}, HOLES, "equilibrium", mesh=COARSE, solver=TIGHT)
-    answer = solve(folder, "derived", loaded | {"sensitivity": {"quantity": "minimum_gap", "parameters": "feed%supply_pressure"}})
-    with h5py.File(f"{answer.stem}.h5", "r") as file:
-        found = float(numpy.ravel(file["sensitivity/minimum_gap"][...])[0])
-    moved = [solve(folder, f"derived_{sign}", loaded | {"feed": HOLES | {"supply_pressure": 6.0e5 + sign*60.0}})["minimum_gap"]
-             for sign in (1, -1)]
-    checks.below("minimum_gap by supply_pressure over its difference", found*120.0/(moved[0] - moved[1]) - 1.0, 1.0e-5)
+    answer = solve(folder, "derived", loaded | {"sensitivity": {"quantity": "minimum_gap", "parameters": ", ".join(
+        f"feed%{key}" for key in ("supply_pressure", "discharge_coefficient", "orifice_diameter"))}})
+    for key, value in (("supply_pressure", 6.0e5), ("discharge_coefficient", 0.8), ("orifice_diameter", 3.0e-4)):
+        moved = [solve(folder, f"derived_{sign}", loaded | {"feed": HOLES | {key: value*(1.0 + sign*1.0e-4)}})["minimum_gap"]
+                 for sign in (1, -1)]
+        checks.below(f"minimum_gap by {key} over its difference",
+                     answer[f"d_minimum_gap_d_feed_{key}"]*2.0e-4*value/(moved[0] - moved[1]) - 1.0, 1.0e-5)
 
 
 def check_hammer(checks, folder):
@@ -209,7 +210,7 @@ def main():
         check_slopes(checks, folder)
         check_hammer(checks, folder)
         check_floating(checks, folder)
-    checks.report()
+    checks.close()
 
 
 if __name__ == "__main__":
