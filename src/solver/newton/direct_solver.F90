@@ -18,7 +18,7 @@ module gfb_direct_solver
   use gfb_nonlinear_system, only: few_unknowns
   implicit none (type)
   private
-  public :: use_factors, make_factors, factor_matrix, factor_failure, failure_in_words, enlarge_workspace, drop_factors, &
+  public :: use_factors, make_factors, factor_matrix, sign_of_factors, factor_failure, failure_in_words, enlarge_workspace, drop_factors, &
             keep_factors_on_disk, set_option_default, larger_workspace, are_of_mumps, factors_by
 
   !> Prefixes of PETSc's options of all solvers that factor.
@@ -308,17 +308,23 @@ contains
     integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
     integer, intent(inout) :: enlargements !! of MUMPS' workspace, counted on
 
+    logical :: made
+
+    sign_of_determinant = 0
+    call make_factors(linear, matrix, made, enlargements)
+    if (made) sign_of_determinant = sign_of_factors(linear)
+  end subroutine factor_matrix
+
+  !> Sign of the determinant of the matrix that was factored last: 1, -1, or 0 where another package than these has factored it.
+  integer function sign_of_factors(linear) result(sign_of_determinant)
+    KSP, intent(in) :: linear !! prepared by `use_factors`, with factors
     integer, parameter :: mantissa_place = 12 ! in MUMPS' RINFOG
     PetscReal :: mantissa
     Mat :: factor
     PC :: factors
     PetscErrorCode :: ierr
     integer(c_int) :: told
-    logical :: made
 
-    sign_of_determinant = 0
-    call make_factors(linear, matrix, made, enlargements)
-    if (.not. made) return
     PetscCallA(KSPGetPC(linear, factors, ierr))
     if (gfb_klu_sign(int(factors%v, c_intptr_t), told) /= 0) error stop 'PETSc does not say whether KLU has made the factors'
     sign_of_determinant = int(told)
@@ -326,5 +332,5 @@ contains
     PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
     PetscCallA(MatMumpsGetRinfog(factor, int(mantissa_place, pint), mantissa, ierr))
     if (abs(mantissa) > 0.0_wp) sign_of_determinant = nint(sign(1.0_wp, mantissa))
-  end subroutine factor_matrix
+  end function sign_of_factors
 end module gfb_direct_solver

@@ -29,7 +29,7 @@ module gfb_newton
   use gfb_signals, only: stop_agreed, stop_words
   use gfb_petsc_session, only: stop_is_asked, any_rank
   use gfb_nonlinear_system, only: nonlinear_system_type
-  use gfb_direct_solver, only: factor_matrix, factors_by
+  use gfb_direct_solver, only: factor_matrix, sign_of_factors, factors_by
   use gfb_linear_solver, only: linear_solver_type, choose_solver, begin_solve, judge_start, decide_factors, keep_ready, &
                                linear_failure, drop_failed_factors, forget_solver
   use gfb_line_search, only: line_search_type, take_step, remaining_error, stagnation
@@ -37,8 +37,8 @@ module gfb_newton
   use gfb_work_bound, only: work_bound_type, count_factorization, is_spent, share_words, gave_up_words
   implicit none (type)
   private
-  public :: show_enlargements, create_newton, renew_newton, solve_newton, solve_nearby, find_determinant_sign, solve_with_factors, &
-            has_factors, solve_transposed, forget_factors, destroy_newton, visit_counts, imbalance, newton_report_type, work_bound_type
+  public :: show_enlargements, create_newton, renew_newton, solve_newton, solve_nearby, find_determinant_sign, tell_determinant_sign, &
+            solve_with_factors, has_factors, solve_transposed, forget_factors, destroy_newton, visit_counts, imbalance, newton_report_type, work_bound_type
 
   !> How a solve ended.
   type, public :: newton_report_type
@@ -57,6 +57,11 @@ module gfb_newton
   real(wp), parameter :: cautious = 1000.0_wp  !! times what is left if steps go on to shrink: two steps are few [1]
   real(wp), parameter :: hasty = 3.0_wp        !! the same on the way to another answer [1]
   real(wp), parameter :: visible = 1.0e-2_wp !! larger steps are no round-off [1]
+  real(wp), parameter :: close_by = 0.1_wp !! scaled unknowns of states whose matrices differ by a part of each entry [1]
+  real(wp), parameter :: nearness = 0.3_wp !! factors that are near miss no more of a vector than this [1]
+  integer, parameter :: inverse_iterations = 2 !! that make this vector
+  real(wp), parameter :: difference = 1.0e-7_wp !! of scaled unknowns, for a derivative along a vector [1]
+  real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp) !! multiples of it fill an interval evenly
 
   !> When to stop.
   type, public :: newton_settings_type
@@ -91,6 +96,8 @@ module gfb_newton
     logical, private :: begins_near = .false. !! the present solve begins beside an answer
     logical, private :: rounded = .false.    !! the present solve has ended at round-off
     real(wp), private :: unknowns = 1.0_wp   !! their number
+    integer, private :: factored = 0         !! times that the matrix had been filled when it was factored last
+    Vec, private :: factored_at              !! the state where it was
   end type newton_type
 
 contains
@@ -205,6 +212,7 @@ contains
     newton%log = log
     call ieee_get_halting_mode(ieee_divide_by_zero, newton%traps)
     PetscCallA(VecDuplicate(system%state, newton%residual, ierr))
+    PetscCallA(VecDuplicate(system%state, newton%factored_at, ierr))
     PetscCallA(VecGetSize(system%state, unknowns, ierr))
     newton%unknowns = real(max(unknowns, 1_pint), wp)
     PetscCallA(SNESCreate(PETSC_COMM_WORLD, newton%snes, ierr))
@@ -335,9 +343,81 @@ contains
     before = newton%enlargements
     call factor_matrix(linear, newton%system%jacobian, sign_of_determinant, newton%enlargements)
     call keep_ready(newton%linear, sign_of_determinant /= 0, newton%system%times_filled)
+    newton%factored = newton%system%times_filled
+    PetscCallA(VecCopy(newton%system%state, newton%factored_at, ierr))
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     if (newton%enlargements > before) call show_enlargements(newton%log, newton%enlargements)
   end subroutine find_determinant_sign
+
+  !> The same where nobody needs the factors of just this state: from the last ones, if their matrix is near.
+  subroutine tell_determinant_sign(newton, sign_of_determinant)
+    type(newton_type), intent(inout) :: newton !! the solver
+    integer, intent(out) :: sign_of_determinant !! 1, -1, or 0
+    KSP :: linear
+    PetscErrorCode :: ierr
+
+    sign_of_determinant = 0
+    if (factors_are_near(newton)) then
+      PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
+      sign_of_determinant = sign_of_factors(linear)
+      call keep_ready(newton%linear, sign_of_determinant /= 0, newton%system%times_filled)
+    end if
+    if (sign_of_determinant == 0) call find_determinant_sign(newton, sign_of_determinant)
+  end subroutine tell_determinant_sign
+
+  !> Whether the last factors are of a matrix so near to the present one that both determinants have one sign.
+  !>
+  !> Where the spectral radius of \( E = I - A^{-1} J \) is below 1, with the factored matrix \( A \) and the present one \( J \), the
+  !> eigenvalues of \( A^{-1} J \) are nearer to 1 than 0 is: real ones are positive, others come in pairs, and so \( \det A^{-1} J > 0 \).
+  !> Of states that are close the matrices are, too, and on what has gone through zero between them \( A \) does little, as little as it
+  !> differs from \( J \): such a vector grows most where \( A^{-1} \) is applied again and again (inverse iteration). What \( E \) leaves of
+  !> it then shows the radius. Its product with \( J \) is a difference of residuals, so that no matrix is made.
+  logical function factors_are_near(newton) result(near)
+    type(newton_type), intent(inout) :: newton
+    Vec :: way, change, work
+    PetscScalar, pointer :: value(:)
+    PetscReal :: before, after, largest, moved
+    PetscInt :: first, last, i
+    PetscErrorCode :: ierr
+    logical :: valid(2)
+    integer :: k
+
+    near = .false.
+    if (newton%linear%iterates .or. newton%linear%forgotten .or. newton%system%slow_change) return
+    if (newton%factored /= newton%system%times_filled) return
+    PetscCallA(VecDuplicate(newton%residual, way, ierr))
+    PetscCallA(VecDuplicate(newton%residual, change, ierr))
+    PetscCallA(VecDuplicate(newton%residual, work, ierr))
+    PetscCallA(VecWAXPY(work, -1.0_wp, newton%factored_at, newton%system%state, ierr))
+    PetscCallA(VecNorm(work, NORM_INFINITY, moved, ierr))
+    PetscCallA(VecGetOwnershipRange(way, first, last, ierr))
+    PetscCallA(GFB_VecGetArray(way, value, ierr))
+    value = [(golden*real(i, wp) - floor(golden*real(i, wp)) - 0.5_wp, i=first + 1, last)] ! an arbitrary one, on all ranks alike
+    PetscCallA(GFB_VecRestoreArray(way, value, ierr))
+    do k = 1, inverse_iterations
+      if (moved > close_by) exit
+      call solve_with_factors(newton, way, work)
+      PetscCallA(VecNorm(work, NORM_INFINITY, largest, ierr))
+      if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) exit
+      PetscCallA(VecAXPBY(way, difference/largest, 0.0_wp, work, ierr))
+    end do
+    if (k > inverse_iterations) then
+      PetscCallA(VecWAXPY(work, 1.0_wp, way, newton%system%state, ierr))
+      call newton%system%evaluate(work, change, valid(1))
+      ! Last where the state is: the system keeps some of it.
+      call newton%system%evaluate(newton%system%state, newton%residual, valid(2))
+      PetscCallA(VecAXPY(change, -1.0_wp, newton%residual, ierr))
+      call solve_with_factors(newton, change, work)
+      PetscCallA(VecNorm(way, NORM_2, before, ierr))
+      PetscCallA(VecAXPY(way, -1.0_wp, work, ierr))
+      PetscCallA(VecNorm(way, NORM_2, after, ierr))
+      near = .not. any_rank(.not. all(valid))
+      near = near .and. after <= nearness*before
+    end if
+    PetscCallA(VecDestroy(work, ierr))
+    PetscCallA(VecDestroy(change, ierr))
+    PetscCallA(VecDestroy(way, ierr))
+  end function factors_are_near
 
   !> Whether there are factors, those of the last matrix that was factored.
   pure logical function has_factors(newton)
@@ -437,6 +517,8 @@ contains
     call forget_secants(newton%secants)
     call ieee_set_halting_mode(ieee_divide_by_zero, newton%traps)
     call newton%system%linearise(x)
+    newton%factored = newton%system%times_filled
+    PetscCall(VecCopy(x, newton%factored_at, ierr))
     call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
   end subroutine form_jacobian
 
@@ -536,6 +618,7 @@ contains
     if (.not. newton%created) return
     PetscCallA(SNESDestroy(newton%snes, ierr))
     PetscCallA(VecDestroy(newton%residual, ierr))
+    PetscCallA(VecDestroy(newton%factored_at, ierr))
     call destroy_secants(newton%secants)
     if (allocated(newton%linear%unsolved)) deallocate (newton%linear%unsolved)
     newton%created = .false.

@@ -14,7 +14,7 @@ module gfb_answer_judgement
   use gfb_sweep_case, only: swept_key_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_heat_switch, only: held_bearing_type, hold_heat
-  use gfb_newton, only: newton_type, find_determinant_sign
+  use gfb_newton, only: newton_type, find_determinant_sign, tell_determinant_sign
   use gfb_static_stiffness, only: find_edge_stiffness
   use gfb_whirl, only: whirl_type
   use gfb_stability, only: stability_type, find_stability
@@ -125,7 +125,11 @@ contains
     end if
     if (.not. bearing%floats .or. bearing%shaft_fixed) return
     ! The last of the factors, so that the next solve can begin with them.
-    call find_determinant_sign(newton, sign_of_determinant)
+    if (bearing%has_contacts() .or. scene%sensitivity%present) then
+      call find_determinant_sign(newton, sign_of_determinant) ! its factors are needed
+    else
+      call tell_determinant_sign(newton, sign_of_determinant)
+    end if
     if (sign_of_determinant == 0) return
     ! A runner's gap and tilts are one or three unknowns, whose stiffness enters with the opposite sign.
     if (modulo(size(bearing%coordinate), 2) == 1) sign_of_determinant = -sign_of_determinant

@@ -21,6 +21,7 @@ module small_systems
   integer, parameter, public :: outside = 5   !! x_i = -1, where x > 0
   integer, parameter, public :: uphill = 6    !! x_i = 1, with a matrix of the wrong sign
   integer, parameter, public :: stopped = 7   !! x_i = 1 with a stop at 0.1, which is `hard`
+  integer, parameter, public :: fold = 8      !! x_1^2 = 1e-4, and all others x_i = 2
 
   real(wp), parameter, public :: stop_at = 0.1_wp !! where that begins
 
@@ -67,6 +68,9 @@ contains
     case (stopped)
       f = x - 1.0_wp + hard*(x - stop_at)
       slope = 1.0_wp + hard
+    case (fold)
+      f = merge(x**2 - 1.0e-4_wp, x - 2.0_wp, i == 1)
+      slope = merge(2.0_wp*x, 1.0_wp, i == 1)
     case default
       f = merge(x - 2.0_wp, -1.0_wp, i == 1)
       slope = merge(1.0_wp, 0.0_wp, i == 1)
@@ -89,7 +93,7 @@ contains
     self%traps = self%traps .and. all(halts)
     PetscCallA(VecGetOwnershipRange(state, first, last, ierr))
     PetscCallA(GFB_VecGetArrayRead(state, x, ierr))
-    valid = any(self%law == [no_root, uphill, stopped]) .or. all(x(:last - first) > 0.0_wp)
+    valid = any(self%law == [no_root, uphill, stopped, fold]) .or. all(x(:last - first) > 0.0_wp)
     do i = 1, int(last - first)
       call law_at(self%law, int(first) + i, x(i), merge(self%hard, 0.0_wp, self%closed), f, slope)
       PetscCallA(VecSetValue(residual, first + i - 1_pint, f, INSERT_VALUES, ierr))
