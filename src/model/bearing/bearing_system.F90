@@ -19,6 +19,7 @@ module gfb_bearing_system
   use gfb_local_exchange, only: create_exchange
   use gfb_film_heat, only: shaft_places
   use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type, places_of
+  use gfb_bearing_layers, only: layers_of
   use gfb_bearing_numbering, only: number_unknowns, scale_unknowns, create_numbers, number_by
   use gfb_bearing_motion, only: momentum_block, losses_block, dampers_block, end_motion
   use gfb_heat_block, only: heat_block
@@ -85,6 +86,8 @@ contains
     bearing%dense_rows = bearing%floats .or. any(bearing%block%scalars > 0)
     bearing%low_fill = bearing%plane .and. .not. any(bearing%block%fields > 0)
     call number_unknowns(bearing)
+    if (allocated(bearing%layer)) deallocate (bearing%layer)
+    if (any(bearing%block%fields > 0)) bearing%layer = layers_of(bearing)
     PetscCallA(VecCreateMPI(PETSC_COMM_WORLD, int(bearing%blocks%border%owned, pint), PETSC_DETERMINE, bearing%state, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%left, ierr))
     PetscCallA(VecDuplicate(bearing%state, bearing%right, ierr))

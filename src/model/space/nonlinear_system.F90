@@ -16,6 +16,8 @@ module gfb_nonlinear_system
     logical :: dense_rows = .false. !! a few equations hold almost all unknowns
     logical :: plane = .false.      !! unknowns stand at the nodes of a plane mesh
     logical :: low_fill = .false.   !! factors of the matrix stay sparse: a plane mesh with few unknowns a node
+    !> of each unknown of one rank: it is coupled with its own layer and those beside it; 0: with all; else none
+    integer, allocatable :: layer(:)
     logical :: symmetric = .false.  !! the matrix is, at every state
     logical :: definite = .false.   !! it is positive definite too, and says so to PETSc
     Mat :: motions  !! coarse space of an iterative solver, (unknowns, motions); owned by the system

@@ -1,7 +1,8 @@
 #include "gfb_petsc.h"
 !> A linear solver that factors its matrix, and what the factors show of it.
 !>
-!> KLU has the matrices whose factors stay sparse, MUMPS all others: of films on springs or beams KLU's factors take a third
+!> A film with heat is factored station by station (`layer_factors.c`), on one rank, where it is not too wide. KLU has the matrices
+!> whose factors stay sparse, MUMPS all others: of films on springs or beams KLU's factors take a third
 !> to two thirds of the time, since MUMPS is made for blocks that are dense. On several ranks each makes KLU's factors of the
 !> whole matrix, where it is small: what MUMPS' ranks send each other takes longer than these.
 !>
@@ -40,6 +41,25 @@ module gfb_direct_solver
       integer(c_int), intent(out) :: has
       integer(c_int) :: status
     end function gfb_use_klu
+    function gfb_use_layers(factors, order, layer) result(status) bind(c)
+      import :: c_intptr_t, c_int
+      integer(c_intptr_t), value :: factors
+      integer(c_int), value :: order
+      integer(c_int), intent(in) :: layer(order)
+      integer(c_int) :: status
+    end function gfb_use_layers
+    function gfb_are_layers(factors, are) result(status) bind(c)
+      import :: c_intptr_t, c_int
+      integer(c_intptr_t), value :: factors
+      integer(c_int), intent(out) :: are
+      integer(c_int) :: status
+    end function gfb_are_layers
+    function gfb_layers_sign(factors, sign) result(status) bind(c)
+      import :: c_intptr_t, c_int
+      integer(c_intptr_t), value :: factors
+      integer(c_int), intent(out) :: sign
+      integer(c_int) :: status
+    end function gfb_layers_sign
     function gfb_forget_klu(factors) result(status) bind(c)
       import :: c_intptr_t, c_int
       integer(c_intptr_t), value :: factors
@@ -56,7 +76,7 @@ module gfb_direct_solver
 contains
 
   !> Makes a linear solver factor its matrix and do nothing else.
-  subroutine use_factors(linear, prefix, symmetric, dense_rows, is_definite, low_fill, matrix, plane)
+  subroutine use_factors(linear, prefix, symmetric, dense_rows, is_definite, low_fill, matrix, plane, layer)
     KSP, intent(in) :: linear              !! without a type yet
     character(len=*), intent(in) :: prefix !! of PETSc's options, such as 'bearing_'
     logical, intent(in) :: symmetric       !! the matrix is
@@ -65,6 +85,7 @@ contains
     logical, intent(in), optional :: low_fill !! its factors stay sparse
     Mat, intent(in), optional :: matrix !! then: itself, filled or not
     logical, intent(in), optional :: plane !! its unknowns stand at the nodes of a plane mesh
+    integer, intent(in), optional :: layer(:) !! of each unknown on one rank, see `layer_factors.c`; empty: none
     logical :: definite, done, flat
     PC :: factors
     PetscErrorCode :: ierr
@@ -77,6 +98,10 @@ contains
     PetscCallA(KSPGetPC(linear, factors, ierr))
     if (present(low_fill) .and. present(matrix)) then
       call use_klu(factors, prefix, low_fill, matrix, done)
+      if (done) return
+    end if
+    if (present(layer)) then
+      call use_layers(factors, prefix, layer, done)
       if (done) return
     end if
     PetscCallA(PCSetType(factors, trim(merge('cholesky', 'lu      ', symmetric)), ierr))
@@ -103,7 +128,6 @@ contains
     Mat, intent(in) :: matrix
     logical, intent(out) :: done
     PetscInt :: rows, columns
-    PetscBool :: package, on_disk
     PetscErrorCode :: ierr
     integer(c_int) :: has
 
@@ -111,12 +135,34 @@ contains
     if (.not. wanted) return
     PetscCallA(MatGetSize(matrix, rows, columns, ierr))
     if (rank_count() > 1 .and. rows > few_unknowns) return
-    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-'//prefix//'pc_factor_mat_solver_type', package, ierr))
-    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-'//prefix//'mat_mumps_icntl_22', on_disk, ierr))
-    if (package .or. on_disk) return
+    if (asks_for_package(prefix)) return
     if (gfb_use_klu(int(factors%v, c_intptr_t), has) /= 0) error stop 'PETSc does not take KLU''s factors'
     done = has /= 0
   end subroutine use_klu
+
+  !> Makes a linear solver's factors those of layers, where there are any, unless an option asks for another package.
+  subroutine use_layers(factors, prefix, layer, done)
+    PC, intent(in) :: factors
+    character(len=*), intent(in) :: prefix !! of PETSc's options
+    integer, intent(in) :: layer(:)
+    logical, intent(out) :: done
+
+    done = size(layer) > 0
+    if (done) done = .not. asks_for_package(prefix)
+    if (.not. done) return
+    if (gfb_use_layers(int(factors%v, c_intptr_t), size(layer), int(layer, c_int)) /= 0) error stop 'PETSc does not take factors of layers'
+  end subroutine use_layers
+
+  !> Whether an option asks for a package, or for MUMPS' factors in files.
+  logical function asks_for_package(prefix) result(asks)
+    character(len=*), intent(in) :: prefix !! of PETSc's options
+    PetscBool :: package, on_disk
+    PetscErrorCode :: ierr
+
+    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-'//prefix//'pc_factor_mat_solver_type', package, ierr))
+    PetscCallA(PetscOptionsHasName(PETSC_NULL_OPTIONS, PETSC_NULL_CHARACTER, '-'//prefix//'mat_mumps_icntl_22', on_disk, ierr))
+    asks = package .or. on_disk
+  end function asks_for_package
 
   !> Makes MUMPS write the factors to files, in the folder that MUMPS_OOC_TMPDIR names, else in /tmp.
   subroutine keep_factors_on_disk()
@@ -188,12 +234,16 @@ contains
     character(len=80) :: kind, package
     PC :: factors
     PetscErrorCode :: ierr
+    integer(c_int) :: layers
 
     PetscCallA(KSPGetPC(linear, factors, ierr))
     PetscCallA(PCGetType(factors, kind, ierr))
+    if (gfb_are_layers(int(factors%v, c_intptr_t), layers) /= 0) error stop 'PETSc does not say whether the factors are of layers'
     package = 'KLU, sparse factors '//trim(merge('on each rank', 'on one rank ', rank_count() > 1))
     if (kind /= PCSHELL) then
       PetscCallA(PCFactorGetMatSolverType(factors, package, ierr))
+    else if (layers /= 0) then
+      package = 'station by station, dense factors on one rank'
     end if
     words = trim(package)
   end function factors_by
@@ -323,11 +373,12 @@ contains
     Mat :: factor
     PC :: factors
     PetscErrorCode :: ierr
-    integer(c_int) :: told
+    integer(c_int) :: klus, layers
 
     PetscCallA(KSPGetPC(linear, factors, ierr))
-    if (gfb_klu_sign(int(factors%v, c_intptr_t), told) /= 0) error stop 'PETSc does not say whether KLU has made the factors'
-    sign_of_determinant = int(told)
+    if (gfb_klu_sign(int(factors%v, c_intptr_t), klus) /= 0) error stop 'PETSc does not say whether KLU has made the factors'
+    if (gfb_layers_sign(int(factors%v, c_intptr_t), layers) /= 0) error stop 'PETSc does not say whether the factors are of layers'
+    sign_of_determinant = int(klus + layers) ! of one of them, if any
     if (.not. are_of_mumps(factors)) return
     PetscCallA(PCFactorGetMatrix(factors, factor, ierr))
     PetscCallA(MatMumpsGetRinfog(factor, int(mantissa_place, pint), mantissa, ierr))

@@ -215,7 +215,7 @@ contains
       call use_multigrid(linear, prefix, system%symmetric, system%motions)
     else
       call use_factors(linear, prefix, system%symmetric, system%dense_rows, system%definite, system%low_fill, &
-                       system%jacobian, system%plane)
+                       system%jacobian, system%plane, system%layer)
     end if
     if (.not. (system%slow_change .or. solver%iterates)) return
     if (.not. solver%iterates) call use_lagged_factors(linear)
@@ -317,7 +317,7 @@ contains
     PetscCallA(KSPReset(linear, ierr))
     PetscCallA(KSPSetNormType(linear, KSP_NORM_DEFAULT, ierr))
     call use_factors(linear, trim(prefix), system%symmetric, system%dense_rows, system%definite, system%low_fill, &
-                     system%jacobian, system%plane)
+                     system%jacobian, system%plane, system%layer)
     if (system%slow_change) call use_lagged_factors(linear)
     call ask_for_factors(solver)
   end subroutine leave_iterations

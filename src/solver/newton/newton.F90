@@ -225,7 +225,7 @@ contains
     PetscCallA(SNESLineSearchShellSetApply(search, search_line, newton, ierr))
     call choose_solver(newton%snes, prefix, system, newton%linear)
     PetscCallA(SNESSetFromOptions(newton%snes, ierr))
-    if (system%low_fill) then
+    if (system%low_fill .or. allocated(system%layer)) then
       PetscCallA(SNESGetKSP(newton%snes, linear, ierr))
       call log%detail('linear systems: '//factors_by(linear))
     end if

@@ -49,11 +49,7 @@ contains
     real(wp) :: memory(1)
     integer :: writer, ends(2)
 
-    if (scene%sweep%present) then
-      allocate (sweep_study_type :: study)
-    else
-      allocate (bearing_study_type :: study)
-    end if
+    call choose_study(scene, study)
     allocate (mine)
     call show_division(scene, context, pool)
     ends = ends_of(scene, pool%groups, pool%group)
@@ -83,6 +79,18 @@ contains
     call end_log(own%log)
     call study%discard()
   end subroutine run_divided_bearing
+
+  !> The study that a scene asks for.
+  subroutine choose_study(scene, study)
+    type(scene_type), intent(in) :: scene
+    class(bearing_study_type), allocatable, intent(out) :: study
+
+    if (scene%sweep%present) then
+      allocate (sweep_study_type :: study)
+    else
+      allocate (bearing_study_type :: study)
+    end if
+  end subroutine choose_study
 
   !> Numbers of the first and last value, or frequency, of a group.
   pure function ends_of(scene, groups, group) result(ends)
@@ -292,7 +300,7 @@ contains
           if (result%converged) call merge_frequencies(blocks, record%dynamics%point(1))
           result%contacts = record_arrays(scene, study%solution%bearing, record, size(record%history))
         end if
-        call write_bearing(scene, terminal, study%solution, result, summary, error)
+        call write_bearing(scene, terminal, study%solution, study%answer, result, summary, error)
       end associate
     end if
     call terminal%give_back()
