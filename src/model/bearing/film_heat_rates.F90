@@ -56,6 +56,15 @@ module gfb_film_heat_rates
     real(wp), allocatable :: value(:, :) !! (unknowns, equations): as PETSc reads it, row by row
   end type element_block_type
 
+  !> Equations of a pad's nodes, put together before PETSc looks for the place of each number: an element has four or nine of the
+  !> many nodes around each of its own, and says of all three equations what they depend on.
+  type :: node_rows_type
+    integer, allocatable :: slot(:, :)      !! (unknowns, nodes) of an element: where its unknowns stand in its nodes' rows
+    real(wp), allocatable :: value(:, :, :) !! (slots, equations of a node, local nodes)
+    integer, allocatable :: unknown(:, :)   !! (slots, local nodes) local unknown; 0: there is none
+    integer, allocatable :: equation(:, :)  !! (equations of a node, local nodes) local unknown whose equation it is; 0: none
+  end type node_rows_type
+
   !> Equations of walls, which hold almost all unknowns: put together here, since PETSc looks for the place of each number in them.
   type :: wall_rows_type
     real(wp), allocatable :: value(:, :)  !! (local unknowns, walls)
@@ -73,6 +82,7 @@ contains
     Mat, intent(in) :: matrix !! by the bearing's local numbers
     type(slit_type) :: slit(size(bearing%pad))
     type(element_block_type) :: block
+    type(node_rows_type) :: rows
     type(wall_rows_type) :: walls
     real(wp) :: factor
     integer :: i, element
@@ -85,6 +95,7 @@ contains
       factor = merge(0.0_wp, 1.0_wp, room)
       do i = 1, size(pads)
         associate (pad => pads(i))
+          rows = empty_rows(pad, block%column)
           do element = 1, size(pad%film%element_nodes, 2)
             call place_block(bearing, i, element, block)
             block%value = 0.0_wp
@@ -92,14 +103,13 @@ contains
               call put_element(bearing, state, i, element, block)
               call put_edges(bearing, state, i, element, slit, flow, block)
             end if
-            associate (nodal => block%row%nodal)
-              call put_block(matrix, block%equation(:nodal), block%unknown, block%value(:, :nodal))
-            end associate
+            call add_to_nodes(pad%film%element_nodes(:, element), block, rows)
             call add_to_walls(heat, block, walls)
             if (heat%softens()) then
               call put_mean(heat, i, pad%film%element_nodes(:, element), factor*nodal_areas(pad, element), matrix)
             end if
           end do
+          call put_nodes(rows, matrix)
         end associate
       end do
       call put_walls(heat, walls, matrix)
@@ -107,6 +117,106 @@ contains
       if (bearing%last_rank) call add_wall_rates(heat, pads, slit, factor, matrix)
     end associate
   end subroutine add_heat_jacobian
+
+  !> Room for the equations of a pad's nodes.
+  pure function empty_rows(pad, column) result(rows)
+    type(pad_type), intent(in) :: pad
+    type(unknowns_type), intent(in) :: column
+    type(node_rows_type) :: rows
+    integer :: slots
+
+    rows%slot = slots_of(pad, column)
+    slots = maxval(rows%slot)
+    associate (nodes => size(pad%mesh%mesh_node))
+      allocate (rows%value(slots, row_foil, nodes), source=0.0_wp)
+      allocate (rows%unknown(slots, nodes), rows%equation(row_foil, nodes), source=0)
+    end associate
+  end function empty_rows
+
+  !> Where the unknowns of an element stand in the rows of its nodes: those of the nodes around them station by station, so that numbers
+  !> rise; then shaft and channel, which may have one a row of nodes; then all others.
+  pure function slots_of(pad, column) result(slot)
+    type(pad_type), intent(in) :: pad
+    type(unknowns_type), intent(in) :: column
+    integer :: slot(column%count, size(pad%film%shape, 1))
+    integer :: a, b, p, station, row, reach, around, before
+
+    reach = 2*pad%whole%order + 1
+    around = reach**2
+    do a = 1, size(slot, 2)
+      do b = 1, size(slot, 2)
+        associate (from => pad%mesh%mesh_node(pad%film%element_nodes(a, 1)) - 1, to => pad%mesh%mesh_node(pad%film%element_nodes(b, 1)) - 1, &
+                   rows => pad%whole%rows(), stations => pad%whole%stations())
+          station = to/rows - from/rows
+          if (abs(station) > pad%whole%order) station = station - sign(stations, station) ! all around
+          station = station + pad%whole%order
+          row = modulo(to, rows) - modulo(from, rows) + pad%whole%order + 1
+        end associate
+        associate (place => reach*station + row)
+          slot(column%pressure(b), a) = place
+          slot(column%mover(b), a) = around + place
+          slot(column%gas(b), a) = 2*around + 2*place - 1
+          slot(column%foil(b), a) = 2*around + 2*place
+        end associate
+        before = 4*around
+        slot(column%shaft(b), a) = before + row
+        slot(column%channel(b), a) = before + reach + row ! the sleeve's where there is none, which follows
+      end do
+      before = 4*around + 2*reach
+      do p = column%sleeve, column%count
+        slot(p, a) = before + p - column%sleeve + 1
+      end do
+    end do
+  end function slots_of
+
+  !> Adds what an element says of its nodes.
+  pure subroutine add_to_nodes(nodes, block, rows)
+    integer, intent(in) :: nodes(:) !! of the element
+    type(element_block_type), intent(in) :: block !! of it
+    type(node_rows_type), intent(inout) :: rows
+    integer :: a, r, p
+
+    do a = 1, size(nodes)
+      associate (node => nodes(a), slot => rows%slot)
+        do p = 1, block%column%count
+          rows%unknown(slot(p, a), node) = block%unknown(p)
+        end do
+        do r = 1, row_foil
+          associate (equation => block%row%of_film(a, r))
+            rows%equation(r, node) = block%equation(equation)
+            do p = 1, block%column%count
+              rows%value(slot(p, a), r, node) = rows%value(slot(p, a), r, node) + block%value(p, equation)
+            end do
+          end associate
+        end do
+      end associate
+    end do
+  end subroutine add_to_nodes
+
+  !> Puts the rows of nodes into the matrix.
+  subroutine put_nodes(rows, matrix)
+    type(node_rows_type), intent(in) :: rows
+    Mat, intent(in) :: matrix
+    real(wp) :: line(size(rows%value, 1), row_foil)
+    integer :: column(size(rows%value, 1)), node, s, used
+
+    do node = 1, size(rows%unknown, 2)
+      used = 0
+      do s = 1, size(rows%unknown, 1)
+        associate (unknown => rows%unknown(s, node), value => rows%value(s, :, node))
+          if (unknown == 0) cycle
+          if (column(max(1, used)) == unknown .and. used > 0) then ! a station moves as one
+            line(used, :) = line(used, :) + value
+          else
+            used = used + 1
+            column(used) = unknown
+            line(used, :) = value
+          end if
+        end associate
+      end do
+      if (used > 0) call put_block(matrix, rows%equation(:, node), column(:used), line(:used, :))
+    end do
+  end subroutine put_nodes
 
   !> Adds what an element says of walls.
   pure subroutine add_to_walls(heat, block, walls)
@@ -286,8 +396,9 @@ contains
     type(element_block_type), intent(inout) :: block !! zero before
     real(wp) :: by(size(bearing%pad(1)%film%shape, 1), heated_rows, size(bearing%pad(1)%film%shape, 1), heated_fields)
     real(wp) :: by_excess(size(by, 1), heated_rows, size(by, 1)), factor(heated_rows)
+    real(wp) :: of_row(most_film_nodes, heated_fields), of_row_excess(most_film_nodes)
     type(gap_moves_type) :: moves
-    integer :: k, a
+    integer :: k, a, b, c
 
     factor = 1.0_wp
     factor(row_foil) = -1.0_wp
@@ -299,8 +410,13 @@ contains
       moves = moves_of_gap(bearing, state, number, element, block%column)
       do k = 1, heated_rows
         do a = 1, size(by, 1)
-          call put_row(size(by, 1), block%column, moves, factor(k)*by(a, k, :, :), factor(k)*by_excess(a, k, :), &
-                       block%value(:, row%of_film(a, k)))
+          do b = 1, size(by, 1)
+            do c = 1, heated_fields
+              of_row(b, c) = factor(k)*by(a, k, b, c)
+            end do
+            of_row_excess(b) = factor(k)*by_excess(a, k, b)
+          end do
+          call put_row(size(by, 1), block%column, moves, of_row, of_row_excess, block%value(:, row%of_film(a, k)))
         end do
       end do
     end associate
@@ -339,8 +455,8 @@ contains
     integer, intent(in) :: nodes
     type(unknowns_type), intent(in) :: column
     type(gap_moves_type), intent(in) :: moves
-    real(wp), intent(in) :: by(nodes, heated_fields)
-    real(wp), intent(in) :: by_excess(nodes) !! by that of the gap at the points
+    real(wp), intent(in) :: by(most_film_nodes, heated_fields)
+    real(wp), intent(in) :: by_excess(most_film_nodes) !! by that of the gap at the points
     real(wp), intent(inout) :: line(column%count)
     real(wp) :: grown, sunk
     integer :: b, c
