@@ -231,7 +231,8 @@ contains
     class(bearing_type), intent(in) :: bearing !! with heat
     type(bearing_state_type), intent(in) :: state !! of it
     real(wp), intent(inout) :: residual(:) !! one a local unknown [SI]
-    real(wp) :: share(size(bearing%pad(1)%film%shape, 1), heated_rows), exchanged(3*size(share, 1) + 1)
+    real(wp) :: share(size(bearing%pad(1)%film%shape, 1), heated_rows), exchanged(3*size(share, 1) + 1), temperature(size(exchanged))
+    integer :: place(size(exchanged))
     type(film_flow_type) :: flow
     integer :: i, element, b, n
 
@@ -242,23 +243,25 @@ contains
         do element = 1, size(film%element_nodes, 2)
           call heated_residual(film%geometry(element), flow, heat%gas, &
                                state_of(heat, pad, element, state%point, unknown, state%gap(pad%first_node + 1:pad%last_node)), share)
-          associate (place => element_walls(heat, pad, element))
-            exchanged = exchange(heat, pad, element, unknown(place))
-            exchanged(:n) = exchanged(:n) - share(:, row_foil)
-            exchanged(n + 1:2*n) = exchanged(n + 1:2*n) + film%copies*share(:, row_shaft)
-            do b = 1, n
-              associate (node => film%element_nodes(b, element))
-                residual(pad%first + node) = residual(pad%first + node) + share(b, row_mass)
-                associate (gas => heat%place_of_gas(i, node))
-                  residual(gas) = residual(gas) + share(b, row_energy)
-                end associate
+          place = element_walls(heat, pad, element)
+          do b = 1, size(place)
+            temperature(b) = unknown(place(b))
+          end do
+          exchanged = exchange(heat, pad, element, temperature)
+          exchanged(:n) = exchanged(:n) - share(:, row_foil)
+          exchanged(n + 1:2*n) = exchanged(n + 1:2*n) + film%copies*share(:, row_shaft)
+          do b = 1, n
+            associate (node => film%element_nodes(b, element))
+              residual(pad%first + node) = residual(pad%first + node) + share(b, row_mass)
+              associate (gas => heat%place_of_gas(i, node))
+                residual(gas) = residual(gas) + share(b, row_energy)
               end associate
-              if (heat%sheet) residual(place(b)) = residual(place(b)) + exchanged(b)
-              if (heat%shaft%kind /= wall_given) residual(place(n + b)) = residual(place(n + b)) + exchanged(n + b)
-              if (heat%channels > 0) residual(place(2*n + b)) = residual(place(2*n + b)) + exchanged(2*n + b)
-            end do
-            if (heat%sleeve%kind /= wall_given) residual(place(3*n + 1)) = residual(place(3*n + 1)) + exchanged(3*n + 1)
-          end associate
+            end associate
+            if (heat%sheet) residual(place(b)) = residual(place(b)) + exchanged(b)
+            if (heat%shaft%kind /= wall_given) residual(place(n + b)) = residual(place(n + b)) + exchanged(n + b)
+            if (heat%channels > 0) residual(place(2*n + b)) = residual(place(2*n + b)) + exchanged(2*n + b)
+          end do
+          if (heat%sleeve%kind /= wall_given) residual(place(3*n + 1)) = residual(place(3*n + 1)) + exchanged(3*n + 1)
           if (heat%softens()) then
             associate (mean => heat%place_of_mean(i), foil => heat%place_of_foil(i, film%element_nodes(:, element)))
               residual(mean) = residual(mean) + dot_product(nodal_areas(pad, element), unknown(foil) - unknown(mean))
