@@ -7,7 +7,7 @@ module gfb_bearing_record
   use gfb_sweep_case, only: sweep_case_type, sweep_eccentricity_x, sweep_eccentricity_y, &
                             sweep_keys, parameter_words
   use gfb_bearing_system, only: bearing_system_type
-  use gfb_bearing_answer, only: bearing_answer
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_newton, only: newton_type
   use gfb_case_file, only: history_row_type, visit_rows
   use gfb_grid_series, only: grid_series_type, visit_series, is_whole
@@ -31,6 +31,7 @@ module gfb_bearing_record
     type(tilt_response_type) :: tilted
     type(dynamics_record_type) :: dynamics !! stiffness, damping, rotor
     type(grid_series_type) :: series !! film and foils at the points of a sweep
+    type(bearing_answer_type), allocatable :: answer !! of the last row
     real(wp) :: begun = 0.0_wp !! when the first point was there [s]
   contains
     procedure :: move_on
@@ -68,9 +69,9 @@ contains
     end if
     if (present(fold)) call add_result(row%quantity, 'fold', fold)
     if (present(branch)) call add_result(row%quantity, 'branch', branch)
+    record%answer = bearing_answer(bearing, stresses=.true.)
     call add_quantity(row%quantity, answer_quantities( &
-                      trim(scene%general%asked%word), converged, &
-                      bearing_answer(bearing, stresses=.true.), bearing%clearance, &
+                      trim(scene%general%asked%word), converged, record%answer, bearing%clearance, &
                       bearing%force_scale()))
     call add_quantity(row%quantity, row_quantities(record%tilted))
     if (allocated(record%judged)) call add_quantity(row%quantity, record%judged)

@@ -15,7 +15,7 @@ module gfb_bearing_study
   use gfb_run_log, only: run_log_type
   use gfb_c_library, only: peak_memory
   use gfb_petsc_session, only: wall_time, sum_over_ranks, rank_count
-  use gfb_bearing_answer, only: bearing_answer
+  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
   use gfb_bearing_plan, only: plan_bearing
   use gfb_memory_check, only: check_memory
   use gfb_bearing_builder, only: check_meshes
@@ -32,6 +32,7 @@ module gfb_bearing_study
   type, extends(study_type), public :: bearing_study_type
     type(bearing_plan_type) :: plan
     type(bearing_solution_type) :: solution
+    type(bearing_answer_type), allocatable :: answer !! of its last state
   contains
     procedure :: prepare => prepare_bearing, check => check_bearing, solve => solve_study, find_answers
     procedure :: first_point   !! number of the sweep's value with which it begins; 0: the scene's own point
@@ -84,9 +85,8 @@ contains
       self%iterations = newton%iterations
       self%factorizations = newton%factorizations
       self%factorizations_finest = newton%factorizations - newton%factorizations_before
-      self%found = answer_quantities(trim(scene%general%asked%word), self%converged, &
-                                     bearing_answer(bearing, stresses=scene%accuracy%present .or. scene%sample%present), &
-                                     bearing%clearance, bearing%force_scale())
+      call read_last_state(self)
+      self%found = answer_quantities(trim(scene%general%asked%word), self%converged, self%answer, bearing%clearance, bearing%force_scale())
       if (self%converged .and. allocated(record%limit)) call add_quantity(self%found, record%limit)
       if (.not. self%converged .or. .not. allocated(record%dynamics%point)) return
       if (size(record%dynamics%point) /= 1) return
@@ -94,6 +94,19 @@ contains
       if (allocated(record%judged)) call add_quantity(self%found, record%judged)
     end associate
   end subroutine solve_study
+
+  !> Reads the answer off the last state. Where nothing follows the first one it is that of the only row.
+  subroutine read_last_state(self)
+    class(bearing_study_type), intent(inout) :: self !! the study
+
+    associate (solution => self%solution)
+      select type (self)
+      type is (bearing_study_type)
+        call move_alloc(solution%record%answer, self%answer)
+      end select
+      if (.not. allocated(self%answer)) self%answer = bearing_answer(solution%bearing, stresses=.true.)
+    end associate
+  end subroutine read_last_state
 
   !> Finds the first answer, or takes it from a restart file, and those that follow.
   !>
@@ -184,7 +197,7 @@ contains
       call self%add_arrays(result%contacts)
       if (allocated(self%more)) call add_quantity(record%judged, self%more)
     end associate
-    call write_bearing(scene, context, self%solution, result, summary, error)
+    call write_bearing(scene, context, self%solution, self%answer, result, summary, error)
   end subroutine write_study
 
   !> What the model leaves out, and why.

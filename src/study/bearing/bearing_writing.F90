@@ -21,7 +21,7 @@ module gfb_bearing_writing
   use gfb_quantity, only: quantity_type, add_quantity, place_of, number_in
   use gfb_result_names, only: add_result
   use gfb_shape_rules, only: thin
-  use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
+  use gfb_bearing_answer, only: bearing_answer_type
   use gfb_bearing_summary, only: cost_type, answer_quantities, cost_quantities, show_closing_block, asked_first
   use gfb_answer_notes, only: show_contact_notes, show_film_notes
   use gfb_tilt_response, only: summary_quantities, show_tilt_response
@@ -241,20 +241,19 @@ contains
   !> Shows the present state and writes it with what was recorded before.
   !>
   !> Fails when a file cannot be written.
-  subroutine write_bearing(scene, context, solution, result, summary, error)
+  subroutine write_bearing(scene, context, solution, answer, result, summary, error)
     type(scene_type), intent(in) :: scene !! whose names the files have
     type(run_context_type), intent(in) :: context !! of the run
     type(bearing_solution_type), intent(inout) :: solution !! with the last state and the record
+    type(bearing_answer_type), intent(in) :: answer !! of that state, with stresses
     type(bearing_result_type), intent(in) :: result !! what else is written
     type(quantity_type), allocatable, intent(out) :: summary(:) !! what the summary says
     type(error_type), allocatable, intent(out) :: error !! why it failed
 
-    type(bearing_answer_type) :: answer
     type(result_grid_type), allocatable :: grids(:)
     type(history_row_type), allocatable :: columns(:)
 
     associate (bearing => solution%bearing, record => solution%record, converged => result%converged, log => context%log)
-      answer = bearing_answer(bearing, stresses=.true.)
       call add_quantity(summary, answer_quantities(trim(scene%general%asked%word), converged, answer, &
                                                    bearing%clearance, bearing%force_scale()))
       call add_quantity(summary, summary_quantities(record%tilted))
