@@ -303,7 +303,6 @@ contains
     type(bearing_system_type), intent(inout) :: bearing !! at the state
     real(wp) :: velocity(film_forces), weight(0:2)
     integer :: i
-    PetscErrorCode :: ierr
 
     weight = difference_weights(step, march%past_step(1))
     velocity = newest_rate(weight, place, march%place)
@@ -312,6 +311,21 @@ contains
     march%place(:, 2:) = march%place(:, :kept_times - 1)
     march%place(:, 1) = place
     call end_step(bearing, weight, march%state(1), march%state(2))
+    call keep_step(march, step, bearing)
+    do i = 1, size(bearing%pad)
+      call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
+    end do
+    if (bearing%is_meshed()) call bearing%commit()
+  end subroutine accept_step
+
+  !> Time goes on by a step, and the bearing's state becomes the newest that is kept.
+  subroutine keep_step(march, step, bearing)
+    type(march_type), intent(inout) :: march !! its past
+    real(wp), intent(in) :: step !! that led to the state [s]
+    type(bearing_system_type), intent(in) :: bearing !! at it
+    integer :: i
+    PetscErrorCode :: ierr
+
     march%past_step(2:) = march%past_step(:kept_times - 1)
     march%past_step(1) = step
     march%time = march%time + step
@@ -324,11 +338,7 @@ contains
       PetscCallA(VecCopy(march%state(i - 1), march%state(i), ierr))
     end do
     PetscCallA(VecCopy(bearing%state, march%state(1), ierr))
-    do i = 1, size(bearing%pad)
-      call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))
-    end do
-    if (bearing%is_meshed()) call bearing%commit()
-  end subroutine accept_step
+  end subroutine keep_step
 
   !> Puts what a step adds into the bearing's equations.
   subroutine prepare_step_of(march, step, bearing, held_at)
@@ -338,11 +348,22 @@ contains
     !> where the sleeve is at the end of the step and how it is tilted, of a shaft that is moved from outside; else its drive
     !> has an orbit [m], [rad]
     real(wp), intent(in), optional :: held_at(film_forces)
-    real(wp) :: weight(0:2), time, place(film_forces)
+
+    call prepare_difference(march, march%time + step, difference_weights(step, march%past_step(1)), march%state(1), march%state(2), &
+                            bearing, held_at)
+  end subroutine prepare_step_of
+
+  !> The same of any difference over what the march, the bearing and two states have of the past.
+  subroutine prepare_difference(march, time, weight, now, before, bearing, held_at)
+    type(march_type), intent(inout) :: march !! its past
+    real(wp), intent(in) :: time !! of the new state [s]
+    real(wp), intent(in) :: weight(0:2) !! a_0, a_1, a_2 of `gfb_backward_difference` [1/s]
+    Vec, intent(in) :: now, before !! scaled states of the past
+    type(bearing_system_type), intent(inout) :: bearing !! gets the equations
+    real(wp), intent(in), optional :: held_at(film_forces) !! as in `prepare_step_of` [m], [rad]
+    real(wp) :: place(film_forces)
     integer :: i
 
-    time = march%time + step
-    weight = difference_weights(step, march%past_step(1))
     call drive_at(march, time, bearing)
     if (bearing%floats .and. .not. bearing%shaft_fixed) then
       bearing%point%inertia(1, 1) = march%drive%mass*weight(0)**2
@@ -358,14 +379,14 @@ contains
     else
       bearing%point%place(:2) = march%start%place(:2) + march%drive%orbit_at(time)
     end if
-    call prepare_step(bearing, weight, march%state(1), march%state(2))
+    call prepare_step(bearing, weight, now, before)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), past => march%pad(i))
         pad%film%storage = weight(0)
         pad%film%past = weight(1)*past%stored(:, :, 1) + weight(2)*past%stored(:, :, 2)
       end associate
     end do
-  end subroutine prepare_step_of
+  end subroutine prepare_difference
 
   !> Where the sleeve would be after a step without any force: the acceleration is a_0^2 times the way from there.
   pure function free_place(march, weight) result(place)
