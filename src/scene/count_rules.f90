@@ -13,7 +13,7 @@ module gfb_count_rules
   use gfb_bearing_case, only: pad_length
   use gfb_mesh_case, only: most_a_side
   use gfb_operation_case, only: angular_speed
-  use gfb_motion_cases, only: motion_free, duration_of
+  use gfb_motion_cases, only: motion_free, duration_of, chosen_steps
   implicit none (type, external)
   private
   public :: check_counts
@@ -246,7 +246,6 @@ contains
   subroutine check_times(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    real(wp), parameter :: fewest = 60.0_wp !! of a turn, where the error chooses them [1]
     real(wp) :: duration, fastest, steps
     character(len=:), allocatable :: key
 
@@ -259,8 +258,9 @@ contains
       if (.not. duration < huge(duration)) return ! see the rule of its end
       fastest = max(angular_speed(operation%speed_rpm), angular_speed(transient%final_speed_rpm), &
                     abs(transient%orbit_frequency))
-      steps = max(1.0_wp, duration*fastest/(2.0_wp*pi))*fewest
-      if (transient%steps_per_turn > 0.0_wp) steps = steps/fewest*transient%steps_per_turn
+      steps = max(1.0_wp, duration*fastest/(2.0_wp*pi))
+      steps = steps*merge(transient%steps_per_turn, chosen_steps(transient%time_method), &
+                          transient%steps_per_turn > 0.0_wp)
       key = 'turns'
       if (keys%meant('transient', 'duration')) key = 'duration'
       if (transient%steps_per_turn > 1.0e5_wp) key = 'steps_per_turn'

@@ -6,7 +6,7 @@ module gfb_motion_rules
   use gfb_contact_law, only: law_tanh_reset
   use gfb_motion_cases, only: tangent_stick, mass_auto, mass_on, mass_off, motion_free, &
                               follow_nothing, follow_speed, follow_unbalance, follow_mass, &
-                              duration_of
+                              duration_of, fewest_steps
   use gfb_model_case, only: needs_meshes, coupling_partitioned, half_width_yes, reduction_none, &
                             springs_two_sided
   use gfb_operation_case, only: angular_speed
@@ -18,7 +18,7 @@ module gfb_motion_rules
   private
   public :: check_dynamics, check_foil_mass, check_rotor, check_transient, check_periodic
 
-  real(wp), parameter :: least_steps = 20.0_wp !! of a turn, or of a pulse [1]
+  real(wp), parameter :: least_steps = 20.0_wp !! of a pulse [1]
   character(len=*), parameter :: unused_where_free = "has no use with motion = 'free'"
 
 contains
@@ -345,19 +345,21 @@ contains
   subroutine check_steps(keys, scene)
     type(case_keys_type), intent(inout) :: keys
     type(scene_type), intent(in) :: scene
-    real(wp) :: speed, steps
+    real(wp) :: speed, steps, fewest
     logical :: slow
 
+    fewest = fewest_steps(scene%transient%time_method)
     associate (transient => scene%transient)
       if (.not. transient%steps_per_turn > 0.0_wp .or. &
-          transient%steps_per_turn >= least_steps) return
+          transient%steps_per_turn >= fewest) return
       speed = max(angular_speed(scene%operation%speed_rpm), &
                   angular_speed(transient%final_speed_rpm))
       steps = transient%pulse_length*speed/angular_speed(60.0_wp)*transient%steps_per_turn
       slow = steps >= least_steps .and. size(transient%base_time) == 0 .and. .not. &
              max(scene%unbalance%static, scene%unbalance%couple, transient%orbit_radius) > 0.0_wp
-      call keys%rule('transient', 'steps_per_turn', .not. slow, 'must be at least 20: fewer '// &
-                     'steps do not resolve a turn; or give a pulse alone, of 20 steps or more')
+      call keys%rule('transient', 'steps_per_turn', .not. slow, 'must be at least '// &
+                     text(nint(fewest))//': fewer steps do not resolve a turn; or give a '// &
+                     'pulse alone, of 20 steps or more')
     end associate
   end subroutine check_steps
 

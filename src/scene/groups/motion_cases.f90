@@ -105,12 +105,19 @@ module gfb_motion_cases
 
   integer, parameter :: longest_table = 100000
 
+  integer, parameter, public :: method_bdf2 = 1, method_esdirk4 = 2
+  character(len=*), parameter :: method_words(*) = [character(len=7) :: 'bdf2', 'esdirk4']
+  !> Steps of a turn at least, by the method: where they are given, where the error chooses [1].
+  real(wp), parameter, public :: fewest_steps(2) = [20.0_wp, 10.0_wp]
+  real(wp), parameter, public :: chosen_steps(2) = [60.0_wp, 20.0_wp]
+
   !> What is asked for.
   type :: transient_case_type
     logical :: present = .false.           !! the analysis is 'transient'
     real(wp) :: turns = 0.0_wp             !! to be computed; 0: `duration` says it [1]
     real(wp) :: duration = 0.0_wp          !! the same [s]
     real(wp) :: steps_per_turn = 0.0_wp    !! 0: the error chooses them [1]
+    integer :: time_method = method_bdf2   !! how a step is taken
     real(wp) :: time_tolerance = 1.0e-5_wp !! error of a step over the clearance, then [1]
     real(wp) :: unsolved_part = 0.01_wp    !! of a step's error, to which it is solved [1]
     real(wp) :: start_load(2) = 0.0_wp     !! whose equilibrium the shaft begins with [N]
@@ -394,12 +401,17 @@ contains
                        default='required without `turns`')
     call keys%real_key('steps_per_turn', transient%steps_per_turn, '1', &
                        'steps of a turn of the shaft, all equal; default: the error chooses '// &
-                       'them, 60 and more', positive, default='by the error')
+                       'them, 60 and more, with esdirk4 20 and more', positive, &
+                       default='by the error')
     call keys%real_key('time_tolerance', transient%time_tolerance, '1', &
                        'error of a step in the position of the shaft, over the clearance, '// &
                        'where it chooses the steps', positive)
     call read_drive(keys, transient, operation, analysis%is_machine)
     of_bearing = unless(.not. analysis%is_machine, no_use_of_machine)
+    call keys%choice_key('time_method', transient%time_method, method_words, &
+                         'how a step is taken: bdf2 by a difference of order 2, esdirk4 by '// &
+                         'five stages of order 4, each like a step of bdf2: 10 to 20 a turn', &
+                         useless=of_bearing)
     ! Who asks for a tolerance gets it; an echo, which has both keys, is read as its case was.
     if (analysis%is_machine .or. keys%holds('solver', 'step_tolerance')) then
       transient%unsolved_part = 0.0_wp

@@ -19,6 +19,15 @@ module gfb_march_state
     real(wp), allocatable :: stored(:, :, :)  !! (points, elements, 2) r h [Pa m]
   end type pad_history_type
 
+  !> What a march by stages keeps from step to step, on this rank; a march that begins anew finds it.
+  type, public :: stages_past_type
+    logical :: ready = .false.            !! the rates are those of the present state
+    real(wp), allocatable :: rate(:)      !! of all that has a past, in the order of `gfb_stage_memory`, per second
+    integer :: known = 0                  !! stages that the next one is predicted from
+    real(wp), allocatable :: time(:)      !! (stages) theirs, the newest first [s]
+    real(wp), allocatable :: unknown(:, :) !! (local unknowns, stages) [SI]
+  end type stages_past_type
+
   !> How steps are chosen.
   type, public :: march_settings_type
     real(wp) :: steps_per_turn = 0.0_wp !! 0: by the error [1]
@@ -27,6 +36,7 @@ module gfb_march_state
     real(wp) :: damping = 0.0_wp        !! of an elastic foundation [N s/m^3]
     type(maxwell_arm_type) :: arm       !! beside its springs
     real(wp) :: unsolved = 0.0_wp       !! of a step's own error, to which its equations are solved; 0: to the last digits [1]
+    logical :: by_stages = .false.      !! of order 4 (`gfb_runge_kutta`), else of order 2
     real(wp) :: loss_time = 0.0_wp      !! viscous losses of meshed foils, over their stiffness [s]
     real(wp) :: end_time = 0.0_wp       !! [s]
   contains
@@ -50,6 +60,7 @@ module gfb_march_state
     real(wp) :: past_step(kept_times) = 0.0_wp !! the last steps, `step` first [s]
     real(wp), allocatable :: unknown(:, :) !! (local unknowns, kept_times) now and before [SI]
     type(pad_history_type), allocatable :: pad(:)
+    type(stages_past_type) :: stages    !! of a march by stages
     type(operating_point_type) :: start !! whose tilt and fixed position stay
     Vec :: state(kept_times) !! scaled, now and before, with all their digits
   contains

@@ -29,7 +29,7 @@ module gfb_time_march
   implicit none (type)
   private
   public :: begin_rubbing, march_type, march_settings_type, begin_march, resume_march, rebuild_past, take_step, end_march, visit_past, find_misfit
-  public :: prepare_step_of, predict_step, accept_step
+  public :: prepare_step_of, prepare_difference, predict_step, accept_step, keep_step, drive_at, place_of, look_at_pad, tolerance_of_step
 
   real(wp), parameter :: rejected = 2.0_wp !! error over the largest one that is not accepted [1]
   integer, parameter :: most_trials = 12 !! of one step
@@ -150,6 +150,8 @@ contains
     type(march_type), intent(inout) :: march !! that has begun anew where the archive restores
     type(natural_order_type) :: order
 
+    march%stages%ready = .false. ! rates of stages are found again, here and from the file
+    march%stages%known = 0
     order = bearing_order(bearing)
     call visit_march(archive, march)
     call visit_vector(archive, 'before', order, march%state(2))
@@ -180,6 +182,7 @@ contains
       if (what /= '') return
       weight = difference_weights(step(1), step(2))
       velocity = newest_rate(weight, march%place(:, 1), march%place(:, 2:))
+      if (march%settings%by_stages) velocity = march%velocity(:, 1) ! has no such difference
       place = rounding*weight(0)*maxval(abs(march%place), 2)
       if (any(abs(velocity - march%velocity(:, 1)) > place)) what = 'the rates of the sleeve'
     end associate

@@ -110,7 +110,7 @@ contains
 
     self%gap = [(bearing(i)%bearing%smallest_gap(), i=1, size(bearing))]
     self%smallest_gap = min(self%smallest_gap, minval(self%gap))
-    call self%orbit%see_motion(march%film(1), places_along(machine, march%motion(:, 1), self%node), orbit_turns)
+    call self%orbit%see_motion(march%film(1), places_along(machine, march%motion(:, 1), self%node), orbit_turns, 0.0_wp)
   end subroutine see_step
 
   !> Adds the present state.

@@ -2,7 +2,9 @@
 module gfb_orbit_record
   use gfb_kinds, only: wp
   use gfb_archive, only: archive_type
+  use gfb_units, only: turn
   use gfb_spectra, only: extremes_of
+  use gfb_runge_kutta, only: cubic_weights
   use gfb_time_march, only: march_type
   implicit none (type, external)
   private
@@ -10,6 +12,7 @@ module gfb_orbit_record
   !> What moves: e_x and e_y; tilts; e_x and e_y of both bearings.
   integer, parameter, public :: plane_motion(2) = [1, 2], tilt_motion(2) = [3, 4]
   integer, parameter :: journal_motion(4) = [5, 6, 7, 8]
+  integer, parameter :: between = 3          !! places of a step by stages
   real(wp), parameter :: turns_kept = 2.0_wp !! that are compared [1]
 
   !> The steps of the last turns; of a shaft that does not turn all of them.
@@ -27,25 +30,46 @@ module gfb_orbit_record
 
 contains
 
-  !> Adds the present state, and drops what lies more than the last turns back.
+  !> Adds the present state, and drops what lies more than the last turns back. Of the long steps by
+  !> stages it adds places between, on the cubic of both ends with their rates.
   pure subroutine see_step(self, march)
     class(orbit_record_type), intent(inout) :: self !! the record
     type(march_type), intent(in) :: march !! at the beginning or after a step
+    real(wp) :: weight(4), place(size(march%place, 1))
+    integer :: i
 
-    if (march%drive%bearing_distance > 0.0_wp) then
-      call self%see_motion(march, [march%place(:2, 1), march%place(4:, 1), &
-                                   march%way_in_bearings(march%place(:, 1))], turns_kept)
-    else
-      call self%see_motion(march, march%place(:2, 1), turns_kept)
+    if (march%settings%by_stages .and. march%steps > 0) then
+      do i = 1, between
+        associate (share => real(i, wp)/real(between + 1, wp))
+          weight = cubic_weights(share, march%step)
+          place = matmul(march%place(:, :2), weight(:2)) + matmul(march%velocity(:, :2), weight(3:))
+          call self%see_motion(march, motion_at(march, place), turns_kept, &
+                               (1.0_wp - share)*march%step)
+        end associate
+      end do
     end if
+    call self%see_motion(march, motion_at(march, march%place(:, 1)), turns_kept, 0.0_wp)
   end subroutine see_step
 
+  !> What moves, of a place of the sleeve.
+  pure function motion_at(march, place) result(motion)
+    type(march_type), intent(in) :: march
+    real(wp), intent(in) :: place(:) !! with the tilt [m], [rad]
+    real(wp), allocatable :: motion(:) !! [m], [rad]
+
+    motion = place(:2)
+    if (march%drive%bearing_distance > 0.0_wp) then
+      motion = [motion, place(4:), march%way_in_bearings(place)]
+    end if
+  end function motion_at
+
   !> The same of whatever moves.
-  pure subroutine see_motion(self, march, motion, kept)
+  pure subroutine see_motion(self, march, motion, kept, ago)
     class(orbit_record_type), intent(inout) :: self !! the record
     type(march_type), intent(in) :: march !! its time
-    real(wp), intent(in) :: motion(:) !! now, as many numbers at each step [m], [rad]
+    real(wp), intent(in) :: motion(:) !! then, as many numbers at each step [m], [rad]
     real(wp), intent(in) :: kept !! turns at the end that are not dropped [1]
+    real(wp), intent(in) :: ago !! before the march's time [s]
     integer :: old
 
     if (.not. allocated(self%time)) call make_room(self, size(motion), 256)
@@ -58,8 +82,8 @@ contains
       end if
     end if
     self%steps = self%steps + 1
-    self%time(self%steps) = march%time
-    self%turns(self%steps) = march%turns()
+    self%time(self%steps) = march%time - ago
+    self%turns(self%steps) = march%drive%angle_at(march%time - ago)/turn
     self%motion(:, self%steps) = motion
   end subroutine see_motion
 

@@ -6,13 +6,14 @@ module gfb_transient
   use gfb_petsc_session, only: wall_time
   use gfb_bearing_system, only: bearing_system_type
   use gfb_time_march, only: march_type, march_settings_type, begin_march, begin_rubbing, take_step, end_march, visit_past, rebuild_past, find_misfit
+  use gfb_stage_march, only: take_step_by_stages
   use gfb_newton, only: newton_type, newton_report_type, forget_factors
   use gfb_case_file, only: case_array_type
   use gfb_transient_history, only: transient_history_type
   use gfb_orbit_record, only: plane_motion, tilt_motion
   use gfb_scene, only: scene_type
   use gfb_operation_case, only: angular_speed
-  use gfb_motion_cases, only: duration_of, transient_case_type
+  use gfb_motion_cases, only: duration_of, transient_case_type, method_esdirk4, chosen_steps
   use gfb_shaft_drive, only: shaft_drive_type
   use gfb_run_log, only: run_log_type
   use gfb_operating_point, only: operating_point_type
@@ -62,6 +63,8 @@ contains
     type(march_settings_type) :: settings
 
     settings%steps_per_turn = scene%transient%steps_per_turn
+    settings%by_stages = scene%transient%time_method == method_esdirk4
+    settings%least_steps = chosen_steps(scene%transient%time_method)
     settings%tolerance = scene%transient%time_tolerance
     settings%unsolved = scene%transient%unsolved_part
     settings%damping = scene%foil_damping%foundation_damping
@@ -240,7 +243,11 @@ contains
     call context%log%is_within(place_in_time(self%march), 0.0_wp)
     associate (march => self%march, every => scene%transient%output_every, log => context%log)
       do while (march%time < march%settings%end_time)
-        call take_step(march, bearing, newton, report)
+        if (march%settings%by_stages) then
+          call take_step_by_stages(march, bearing, newton, report)
+        else
+          call take_step(march, bearing, newton, report)
+        end if
         if (report%converged) then
           call self%history%see(march, bearing)
           call keep_fields(scene, march, bearing, record%series)
