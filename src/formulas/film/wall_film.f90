@@ -16,7 +16,7 @@ module gfb_wall_film
   use gfb_upwind_weight, only: upwind_weight_derivative
   implicit none (type, external)
   private
-  public :: wall_residual, wall_jacobian, wall_flow
+  public :: wall_residual, wall_jacobian, wall_shares
 
 contains
 
@@ -87,19 +87,20 @@ contains
     end do
   end subroutine wall_jacobian
 
-  !> What a wall feeds into an element in all [Pa m3/s].
-  pure real(wp) function wall_flow(geometry, wall, pressure) result(flow)
+  !> What a wall feeds into an element, by its nodes [Pa m3/s].
+  pure function wall_shares(geometry, wall, pressure) result(share)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(porous_wall_type), intent(in) :: wall !! behind it
     real(wp), intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
+    real(wp) :: share(size(pressure)) !! without upwinding's part, which adds up to nothing
     real(wp) :: source, rate, shapes(size(pressure), size(pressure))
     integer :: i
 
     shapes = film_shapes(size(pressure))
-    flow = 0.0_wp
+    share = 0.0_wp
     do i = 1, size(shapes, 2)
       call wall_source(wall, dot_product(shapes(:, i), pressure), source, rate)
-      flow = flow + geometry%area(i)*source
+      share = share + geometry%area(i)*source*shapes(:, i)
     end do
-  end function wall_flow
+  end function wall_shares
 end module gfb_wall_film

@@ -43,7 +43,7 @@ module gfb_bearing
   !> A field of a block at the nodes of all films, as result files have it.
   type, public :: shown_field_type
     character(len=24) :: name = ''
-    character(len=8) :: unit = ''     !! SI
+    character(len=12) :: unit = ''    !! SI
     character(len=40) :: meaning = ''
   end type shown_field_type
 

@@ -6,7 +6,7 @@ module gfb_feed_answer
   use gfb_film_feed, only: mouth_flow, mouth_state
   use gfb_operating_point, only: operating_point_type
   use gfb_petsc_session, only: sum_over_ranks
-  use gfb_wall_film, only: wall_flow
+  use gfb_wall_film, only: wall_shares
   implicit none (type, external)
   private
   public :: feed_answer, line_flow
@@ -42,8 +42,9 @@ contains
           if (.not. film%wall%present) cycle
           do element = 1, size(film%element_nodes, 2)
             associate (nodes => film%element_nodes(:, element))
-              total = total + film%copies*wall_flow(film%geometry(element), film%wall_at(point), &
-                                                    unknown(pad%first + nodes))
+              total = total + film%copies*sum(wall_shares(film%geometry(element), &
+                                                          film%wall_at(point), &
+                                                          unknown(pad%first + nodes)))
             end associate
           end do
         end associate

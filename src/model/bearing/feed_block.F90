@@ -12,10 +12,11 @@ module gfb_feed_block
   use gfb_film_feed, only: film_feed_type, mouth_state, mouth_unknowns, mouth_flow, mouth_mean, mouth_gap
   use gfb_film_rates, only: squeeze, flow_by_gap
   use gfb_pad_terms, only: add_block
-  use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type
+  use gfb_wall_film, only: wall_shares
+  use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type, shown_field_type
   implicit none (type)
   private
-  public :: feed_block
+  public :: feed_block, begin_feed
 
   !> A line's point: pressure, gap, what it feeds and derivatives.
   type :: line_point_type
@@ -39,7 +40,11 @@ contains
     block%add_column => feed_column
     block%add_rates => feed_rates
     block%prepare_step => prepare_feed
+    block%end_step => follow_feed
+    block%recall_step => recall_feed
     block%end_motion => end_feed
+    block%shown = [shown_field_type('feed', 'kg/(m2 s)', 'gas that is fed in, of an area')]
+    block%show => field_of_feed
   end subroutine feed_block
 
   !> Where mouths have their unknowns.
@@ -320,34 +325,87 @@ contains
     end associate
   end subroutine feed_rates
 
-  !> From now on pockets store gas: what they held at the last two steps.
+  !> From now on pockets store gas: what they hold now they have held before.
+  subroutine begin_feed(unknown, bearing)
+    real(wp), intent(in) :: unknown(:) !! of the bearing, local, in SI
+    class(bearing_type), intent(inout) :: bearing !! at rest
+    real(wp), allocatable :: held(:)
+
+    if (.not. allocated(bearing%feed)) return
+    if (.not. bearing%feed%volume > 0.0_wp) return
+    call find_content(bearing, unknown, held)
+    bearing%feed%content = spread(held, 2, 2)
+  end subroutine begin_feed
+
+  !> Gas in all pockets at a state: pressure times volume, of the mouths, then of the points of lines.
+  pure subroutine find_content(bearing, unknown, held)
+    class(bearing_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp), allocatable, intent(out) :: held(:) !! [Pa m3]
+    real(wp) :: law(7), pressure
+    integer :: j
+
+    associate (feed => bearing%feed)
+      allocate (held(size(feed%mouth)))
+      do j = 1, size(held)
+        call mouth_state(feed, j, unknown, bearing%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        held(j) = feed%volume*pressure
+      end do
+      do j = 1, size(feed%line)
+        associate (line => feed%line(j), before => bearing%pad(feed%line(j)%pad)%first)
+          held = [held, feed%volume*matmul(unknown(before + line%node), line%shape)]
+        end associate
+      end do
+    end associate
+  end subroutine find_content
+
+  !> What pockets held before counts in the next step.
   subroutine prepare_feed(bearing, weight, now, before)
     class(bearing_type), intent(inout) :: bearing
     real(wp), intent(in) :: weight(0:2)
     Vec, intent(in) :: now, before
-    real(wp) :: unknown(bearing%local_size(), 2), law(7), pressure
-    integer :: j, k
+    real(wp), allocatable :: past(:)
+    integer :: j, at
 
-    if (.not. bearing%feed%volume > 0.0_wp) return
-    call bearing%get_unknowns(unknown(:, 1), now)
-    call bearing%get_unknowns(unknown(:, 2), before)
     associate (feed => bearing%feed)
-      if (.not. allocated(feed%past)) allocate (feed%past(size(feed%mouth)))
+      if (.not. allocated(feed%content)) return
       feed%storage = weight(0)
-      feed%past = 0.0_wp
-      do j = 1, size(feed%mouth)
-        do k = 1, 2
-          call mouth_state(bearing%feed, j, unknown(:, k), bearing%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
-          feed%past(j) = feed%past(j) + weight(k)*feed%volume*pressure
-        end do
-      end do
+      past = matmul(feed%content, weight(1:))
+      feed%past = past(:size(feed%mouth))
+      at = size(feed%mouth)
       do j = 1, size(feed%line)
-        associate (line => feed%line(j), before_pad => bearing%pad(feed%line(j)%pad)%first)
-          line%past = feed%volume*matmul(weight(1)*unknown(before_pad + line%node, 1) + weight(2)*unknown(before_pad + line%node, 2), line%shape)
-        end associate
+        feed%line(j)%past = past(at + 1:at + size(feed%line(j)%orifices))
+        at = at + size(feed%line(j)%orifices)
       end do
     end associate
   end subroutine prepare_feed
+
+  !> The step has led to the present state.
+  subroutine follow_feed(bearing, weight, now, before)
+    class(bearing_type), intent(inout) :: bearing
+    real(wp), intent(in) :: weight(0:2)
+    Vec, intent(in) :: now, before
+    real(wp), allocatable :: held(:)
+    real(wp) :: unknown(bearing%local_size())
+
+    if (.not. allocated(bearing%feed%content)) return
+    call bearing%get_unknowns(unknown)
+    call find_content(bearing, unknown, held)
+    bearing%feed%content(:, 2) = bearing%feed%content(:, 1)
+    bearing%feed%content(:, 1) = held
+  end subroutine follow_feed
+
+  !> Pockets as a step has left them.
+  subroutine recall_feed(bearing, step, unknown)
+    class(bearing_type), intent(inout) :: bearing
+    integer, intent(in) :: step
+    real(wp), intent(in) :: unknown(:)
+    real(wp), allocatable :: held(:)
+
+    if (.not. allocated(bearing%feed%content)) return
+    call find_content(bearing, unknown, held)
+    bearing%feed%content(:, step) = held
+  end subroutine recall_feed
 
   !> A steady state again.
   subroutine end_feed(bearing)
@@ -356,6 +414,7 @@ contains
 
     associate (feed => bearing%feed)
       feed%storage = 0.0_wp
+      if (allocated(feed%content)) deallocate (feed%content)
       if (allocated(feed%past)) deallocate (feed%past)
       if (.not. allocated(feed%line)) return
       do j = 1, size(feed%line)
@@ -363,6 +422,50 @@ contains
       end do
     end associate
   end subroutine end_feed
+
+  !> Gas that is fed in, of an area.
+  subroutine field_of_feed(bearing, unknown, which, value)
+    class(bearing_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:)
+    integer, intent(in) :: which
+    real(wp), intent(out) :: value(:)
+    real(wp), dimension(bearing%local_size()) :: flux, area
+    type(bearing_state_type) :: state
+    type(line_point_type) :: here
+    integer :: i, j, element
+
+    flux = 0.0_wp
+    area = 0.0_wp
+    state = bearing_state_type(bearing%position(unknown), bearing%point, unknown, bearing%gap(unknown))
+    associate (feed => bearing%feed)
+      do i = 1, size(bearing%pad)
+        associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
+          do element = 1, size(film%element_nodes, 2)
+            associate (place => pad%first + film%element_nodes(:, element))
+              area(place) = area(place) + matmul(film%shape, film%geometry(element)%area)
+              if (film%wall%present) then
+                flux(place) = flux(place) + wall_shares(film%geometry(element), film%wall_at(state%point), unknown(place))
+              end if
+            end associate
+          end do
+        end associate
+      end do
+      do j = 1, size(feed%mouth)
+        associate (mouth => feed%mouth(j), place => bearing%pad(feed%mouth(j)%pad)%first + feed%mouth(j)%node)
+          flux(place) = flux(place) + mouth%part*unknown(feed%place(j, mouth_flow))*feed%size(mouth_flow)*mouth%weight
+        end associate
+      end do
+      do j = 1, size(feed%line)
+        associate (line => feed%line(j), place => bearing%pad(feed%line(j)%pad)%first + feed%line(j)%node)
+          do i = 1, size(line%orifices)
+            here = line_point(bearing, j, i, state)
+            flux(place) = flux(place) + line%shape(:, i)*line%orifices(i)*here%flow
+          end do
+        end associate
+      end do
+      value = bearing%film_pressure(bearing%summed(flux))/bearing%film_pressure(bearing%summed(area))/feed%energy
+    end associate
+  end subroutine field_of_feed
 
   !> Numbers of a mouth's unknowns.
   pure function numbers_of(feed, j) result(own)

@@ -50,6 +50,8 @@ module gfb_film_feed
     type(fed_line_type), allocatable :: line(:)
     integer :: first = 0              !! local unknowns before those of the mouths
     real(wp) :: storage = 0.0_wp      !! a_0 of a step of time; 0: a steady state [1/s]
+    !> (mouths and points of lines, 2) gas in their pockets now and one step ago, over time [Pa m3]
+    real(wp), allocatable :: content(:, :)
     real(wp), allocatable :: past(:)  !! (mouths) what earlier steps store in pockets [Pa m3/s]
   contains
     procedure, non_overridable :: place, supply_pressure, orifice_at

@@ -2,7 +2,8 @@
 !> All that has a past in a march of a bearing, on this rank, as one list of numbers: of each a stage of `gfb_runge_kutta` is
 !> taken alike.
 !>
-!> In its order: the sleeve's place and its rate, the gas of all pads, deflections of damped springs and ways of their arms; of foils
+!> In its order: the sleeve's place and its rate, the gas of all pads, deflections of damped springs and ways of their arms, gas in
+!> pockets of orifices; of foils
 !> with mass or losses the scaled state, with mass its rate, and amplitudes of modes inside pieces and theirs. What an algebraic
 !> equation gives has no past.
 module gfb_stage_memory
@@ -61,6 +62,7 @@ contains
       call visit_part(bearing%dampers%springs(i)%deflection(:, 1))
       call visit_part(bearing%dampers%springs(i)%relaxed(:, 1))
     end do
+    if (has_pockets(bearing)) call visit_part(bearing%feed%content(:, 1))
     if (bearing%momentum%present .or. bearing%losses%present) call visit_state(state)
     if (.not. bearing%momentum%present) return
     call visit_state(bearing%momentum%rate(1))
@@ -103,4 +105,12 @@ contains
       PetscCallA(GFB_VecRestoreArray(vector, values, ierr))
     end subroutine visit_state
   end subroutine visit_memory
+
+  !> Whether pockets of orifices store gas.
+  pure logical function has_pockets(bearing) result(has)
+    type(bearing_system_type), intent(in) :: bearing
+
+    has = allocated(bearing%feed)
+    if (has) has = allocated(bearing%feed%content)
+  end function has_pockets
 end module gfb_stage_memory

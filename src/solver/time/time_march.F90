@@ -24,6 +24,7 @@ module gfb_time_march
   use gfb_contacts_in_motion, only: set_contacts_moving, take_over_friction
   use gfb_bearing_system, only: bearing_system_type, bearing_order
   use gfb_bearing_motion, only: begin_dampers, prepare_step, end_step, recall_step, visit_motion, end_motion
+  use gfb_feed_block, only: begin_feed
   use gfb_film_rates, only: fill_springs
   use gfb_newton, only: newton_type, newton_report_type, newton_settings_type, solve_nearby
   implicit none (type)
@@ -80,6 +81,7 @@ contains
     allocate (march%unknown(bearing%local_size(), kept_times), march%pad(size(bearing%pad)))
     call bearing%get_unknowns(march%unknown(:, 1))
     march%unknown(:, 2:) = spread(march%unknown(:, 1), 2, kept_times - 1)
+    call begin_feed(march%unknown(:, 1), bearing)
     if (settings%damps()) call begin_dampers(settings%damping, settings%arm, march%unknown(:, 1), bearing)
     do i = 1, size(bearing%pad)
       call look_at_pad(bearing, i, march%unknown(:, 1), march%pad(i))

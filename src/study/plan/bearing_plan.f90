@@ -112,6 +112,8 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_plan_type), intent(out) :: plan !! what was chosen
     character(len=:), allocatable :: asked
+    type(film_mesh_type) :: mesh
+    character(len=:), allocatable :: finer
     integer :: nodes, films, sides
 
     plan%order = scene%model%film_order
@@ -137,11 +139,17 @@ contains
                        ' columns of elements to share out')
     end if
     nodes = (plan%order*plan%circumferential + 1)*solved_rows(scene, plan%half)
+    mesh = film_mesh_of(scene, plan)
+    finer = ''
+    if (scene%feed%has_orifices() .and. mesh%nodes() > nodes) then
+      finer = ', finer at orifices'
+      nodes = mesh%nodes()
+    end if
     call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
                   trim(merge(' biquadratic', '            ', &
                              plan%order == film_order_biquadratic))// &
-                  ' elements over the whole pad, '//text(nodes)//' nodes solved')
-    call warn_of_change(film_mesh_of(scene, plan), scene%bearing%row%coordinate, log)
+                  ' elements over the whole pad'//finer//', '//text(nodes)//' nodes solved')
+    call warn_of_change(mesh, scene%bearing%row%coordinate, log)
     sides = scene%bearing%all_pads()/scene%bearing%pads
     if (sides > 1) then
       call log%line('runner between two bearings: a mirror image of this one faces its '// &
