@@ -253,7 +253,8 @@ module gfb_plausible_values
     unit_type('N s/mm^3', 1.0e9_wp), unit_type('mN', 1.0e-3_wp), unit_type('mN s', 1.0e-3_wp), &
     unit_type('N mm', 1.0e-3_wp), unit_type('N mm s', 1.0e-3_wp), &
     unit_type('kg mm', 1.0e-3_wp), unit_type('g mm', 1.0e-6_wp), &
-    unit_type('kg mm^2', 1.0e-6_wp), unit_type('g mm^2', 1.0e-9_wp)]
+    unit_type('kg mm^2', 1.0e-6_wp), unit_type('g mm^2', 1.0e-9_wp), &
+    unit_type('um^2', 1.0e-12_wp), unit_type('mm^3', 1.0e-9_wp), unit_type('1/mm', 1.0e3_wp)]
 
   !> No gas film carries a larger load over p_a D L [1].
   real(wp), parameter :: most_carried = 50.0_wp

@@ -111,8 +111,15 @@ contains
       call read_operation_case(keys, scene%operation, scene%bearing, state, &
                                scene%shaft_contact%present .or. scene%feed%present)
       if (scene%bearing%row%has_sectors) then
-        scene%bearing%clearance = size_of_gap(scene%bearing, scene%operation, &
-                                              scene%gas%viscosity, scene%gas%ambient_pressure)
+        scene%bearing%clearance = max(size_of_gap(scene%bearing, scene%operation, &
+                                                  scene%gas%viscosity, &
+                                                  scene%gas%ambient_pressure), &
+                                      scene%feed%gap_size(scene%gas%viscosity, &
+                                                          scene%bearing%length))
+        if (scene%operation%axial_gap > 0.0_wp) then
+          scene%bearing%clearance = size_of_gap(scene%bearing, scene%operation, &
+                                                scene%gas%viscosity, scene%gas%ambient_pressure)
+        end if
       end if
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
       call read_rotor_case(keys, scene%rotor, scene%bearing%row, analysis)

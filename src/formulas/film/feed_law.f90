@@ -7,14 +7,13 @@ module gfb_feed_law
   use gfb_units, only: pi
   implicit none (type, external)
   private
-  public :: supply_at, wall_source, orifice_flow, largest_orifice_flow, critical_ratio, rim_pressure
+  public :: supply_at, wall_source, orifice_flow, largest_orifice_flow, critical_ratio, rim_balance
 
   integer, parameter, public :: restriction_series = 1  !! hole and curtain, one behind the other
   integer, parameter, public :: restriction_curtain = 2 !! the gap around the mouth
   integer, parameter, public :: restriction_hole = 3    !! the hole itself
 
   real(wp), parameter :: laminar = 1.0e-3_wp !! eps of the flow without a difference of pressure [1]
-  real(wp), parameter :: least_square = 1.0e-4_wp !! of a mouth's, over the film's [1]
 
   !> A porous wall behind the whole surface.
   type, public :: porous_wall_type
@@ -175,35 +174,30 @@ contains
                     - (gamma + 1.0_wp)*ratio**(1.0_wp/gamma))/gamma
   end subroutine factor_square
 
-  !> Pressure in a mouth whose rim the mesh of the film smears, and its derivatives.
+  !> What a mouth whose rim the mesh of the film smears lacks: zero where its pressure fits the film's,
+  !> and the derivatives.
   !>
-  !> $$ p_d^2 = p_0^2 + \beta q/k, \quad k = \frac{h^3}{24 \mu} $$
+  !> $$ r = p_d^2 - p_0^2 - \beta \frac{q}{k}, \quad k = \frac{h^3}{24 \mu} $$
   !>
   !> Around a mouth \( p^2 \) is a logarithm, which no mesh follows: \( \beta \) is what the mean of
   !> a unit source on the rim lacks on this mesh, for an even gap.
-  elemental subroutine rim_pressure(lack, viscosity, mean, flow, gap, pressure, by_mean, by_flow, &
-                                    by_gap)
+  elemental subroutine rim_balance(lack, viscosity, pressure, mean, gap, flow, balance, by_pressure, &
+                                   by_mean, by_gap, by_flow)
     real(wp), intent(in) :: lack      !! beta [1]
     real(wp), intent(in) :: viscosity !! mu [Pa s]
-    real(wp), intent(in) :: mean      !! p_0, on the rim [Pa]
-    real(wp), intent(in) :: flow      !! q into the film [Pa m3/s]
+    real(wp), intent(in) :: pressure  !! p_d, in the mouth [Pa]
+    real(wp), intent(in) :: mean      !! p_0, of the film on the rim [Pa]
     real(wp), intent(in) :: gap       !! h [m]
-    real(wp), intent(out) :: pressure !! p_d [Pa]
-    real(wp), intent(out) :: by_mean, by_flow, by_gap !! [1], [Pa/(Pa m3/s)], [Pa/m]
-    real(wp) :: mobility, square
+    real(wp), intent(in) :: flow      !! q into the film [Pa m3/s]
+    real(wp), intent(out) :: balance  !! r [Pa2]
+    real(wp), intent(out) :: by_pressure, by_mean !! the flow staying [Pa]
+    real(wp), intent(out) :: by_gap   !! the same [Pa2/m]
+    real(wp), intent(out) :: by_flow  !! [Pa s/m3]
 
-    mobility = gap**3/(24.0_wp*viscosity)
-    square = mean**2 + lack*flow/mobility
-    if (square < least_square*mean**2) then ! an iterate far from any answer
-      pressure = sqrt(least_square)*mean
-      by_mean = sqrt(least_square)
-      by_flow = 0.0_wp
-      by_gap = 0.0_wp
-      return
-    end if
-    pressure = sqrt(square)
-    by_mean = mean/pressure
-    by_flow = 0.5_wp*lack/(mobility*pressure)
-    by_gap = -1.5_wp*lack*flow/(mobility*gap*pressure)
-  end subroutine rim_pressure
+    by_flow = -24.0_wp*lack*viscosity/gap**3
+    balance = (pressure - mean)*(pressure + mean) + by_flow*flow
+    by_pressure = 2.0_wp*pressure
+    by_mean = -2.0_wp*mean
+    by_gap = -3.0_wp*by_flow*flow/gap
+  end subroutine rim_balance
 end module gfb_feed_law

@@ -23,7 +23,7 @@ module gfb_bearing
   use gfb_local_exchange, only: local_exchange_type
   use gfb_pad, only: pad_type
   use gfb_bearing_heat, only: film_heat_type, moduli_at
-  use gfb_film_feed, only: film_feed_type, mouth_unknowns, mouth_flow, mouth_mean, mouth_gap
+  use gfb_film_feed, only: film_feed_type, mouth_unknowns
   use gfb_foil_momentum, only: foil_momentum_type, foil_losses_type
   use gfb_spring_history, only: foil_dampers_type
   use gfb_vibration_equations, only: vibration_equations_type
@@ -628,9 +628,7 @@ contains
     call self%put_pressure(spread(self%ambient_pressure, 1, self%film_nodes()), unknown)
     if (.not. allocated(self%feed)) return
     associate (first => self%feed%first, last => self%feed%first + mouth_unknowns*size(self%feed%mouth))
-      unknown(first + mouth_flow:last:mouth_unknowns) = 0.0_wp
-      unknown(first + mouth_mean:last:mouth_unknowns) = 1.0_wp
-      unknown(first + mouth_gap:last:mouth_unknowns) = 1.0_wp
+      unknown(first + 1:last) = 1.0_wp
     end associate
   end subroutine put_gas_at_rest
 

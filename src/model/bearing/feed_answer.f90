@@ -3,7 +3,7 @@ module gfb_feed_answer
   use gfb_kinds, only: wp
   use gfb_bearing, only: bearing_type
   use gfb_feed_law, only: critical_ratio, orifice_flow
-  use gfb_film_feed, only: mouth_flow, mouth_state
+  use gfb_film_feed, only: mouth_state_type, mouth_state
   use gfb_operating_point, only: operating_point_type
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_wall_film, only: wall_shares
@@ -92,7 +92,8 @@ contains
     real(wp), intent(in) :: unknown(:)
     real(wp), intent(inout) :: total !! flow of all [Pa m3/s]
     type(feed_answer_type), intent(inout) :: answer
-    real(wp) :: law(7), pressure, flow, copies
+    type(mouth_state_type) :: here
+    real(wp) :: copies
     integer :: j, all_of_them
 
     associate (feed => bearing%feed)
@@ -100,17 +101,15 @@ contains
       allocate (answer%orifice(all_of_them), answer%pressure(all_of_them), source=0.0_wp)
       do j = 1, size(feed%mouth)
         associate (mouth => feed%mouth(j))
-          call mouth_state(feed, j, unknown, part, bearing%pad(mouth%pad)%film%flow%viscosity, &
-                           law, pressure)
-          flow = unknown(feed%place(j, mouth_flow))*feed%size(mouth_flow)
+          here = mouth_state(feed, j, unknown, part, bearing%pad(mouth%pad)%film%flow%viscosity)
           copies = bearing%pad(mouth%pad)%film%copies*mouth%part
-          total = total + copies*flow
-          answer%orifice([mouth%number, mouth%mirror]) = flow/feed%energy
-          answer%pressure([mouth%number, mouth%mirror]) = pressure
-          if (pressure <= critical_ratio(feed%orifice%ratio)*feed%orifice%supply_pressure) then
+          total = total + copies*here%flow
+          answer%orifice([mouth%number, mouth%mirror]) = here%flow/feed%energy
+          answer%pressure([mouth%number, mouth%mirror]) = here%pressure
+          if (here%pressure <= critical_ratio(feed%orifice%ratio)*feed%orifice%supply_pressure) then
             answer%choked = answer%choked + nint(copies)
           end if
-          if (flow < 0.0_wp) answer%backflow = answer%backflow + nint(copies)
+          if (here%flow < 0.0_wp) answer%backflow = answer%backflow + nint(copies)
         end associate
       end do
     end associate

@@ -9,7 +9,7 @@ module gfb_feed_block
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
   use gfb_feed_law, only: orifice_flow
-  use gfb_film_feed, only: film_feed_type, mouth_state, mouth_unknowns, mouth_flow, mouth_mean, mouth_gap
+  use gfb_film_feed, only: film_feed_type, mouth_state_type, mouth_state, mouth_unknowns, mouth_pressure, mouth_mean, mouth_gap
   use gfb_film_rates, only: squeeze, flow_by_gap
   use gfb_pad_terms, only: add_block
   use gfb_wall_film, only: wall_shares
@@ -33,6 +33,7 @@ contains
     block%name = 'feed'
     block%scalars = mouth_unknowns*size(bearing%feed%mouth)
     block%start = 1.0_wp
+    block%positive = .true.
     block%take_numbers => take_numbers
     block%equation_sizes => sizes_of_equations
     block%add_residual => feed_residual
@@ -66,17 +67,17 @@ contains
     class(bearing_type), intent(in) :: bearing
     type(bearing_state_type), intent(in) :: state
     real(wp), intent(inout) :: residual(:)
-    real(wp) :: law(7), pressure
-    integer :: j, flow, mean, gap
+    type(mouth_state_type) :: here
+    integer :: j, pressure, mean, gap
 
     associate (feed => bearing%feed)
       do j = 1, size(feed%mouth)
-        flow = feed%place(j, mouth_flow)
+        pressure = feed%place(j, mouth_pressure)
         mean = feed%place(j, mouth_mean)
         gap = feed%place(j, mouth_gap)
+        here = state_of_mouth(bearing, j, state)
         associate (mouth => feed%mouth(j), pad => bearing%pad(feed%mouth(j)%pad))
-          call add_to_film(pad%film%fixed, mouth%node, -mouth%part*state%unknown(flow)*feed%size(mouth_flow)*mouth%weight, &
-                           residual(pad%first + 1:pad%last))
+          call add_to_film(pad%film%fixed, mouth%node, -mouth%part*here%flow*mouth%weight, residual(pad%first + 1:pad%last))
           residual(mean) = residual(mean) - dot_product(mouth%weight, state%unknown(pad%first + mouth%node))/feed%size(mouth_mean)
           residual(gap) = residual(gap) &
             - dot_product(mouth%centre_weight, state%gap(pad%first_node + mouth%centre_node))/feed%size(mouth_gap)
@@ -84,8 +85,7 @@ contains
         if (.not. bearing%last_rank) cycle
         residual(mean) = residual(mean) + state%unknown(mean)
         residual(gap) = residual(gap) + state%unknown(gap)
-        call mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
-        residual(flow) = residual(flow) + law(1)/feed%size(mouth_flow)
+        residual(pressure) = residual(pressure) + here%balance/feed%size(mouth_pressure)**2
       end do
     end associate
     call line_residual(bearing, state, residual)
@@ -97,7 +97,8 @@ contains
     type(bearing_state_type), intent(in) :: state
     logical, intent(in) :: room
     Mat, intent(in) :: matrix
-    real(wp) :: law(7), pressure, there
+    type(mouth_state_type) :: here
+    real(wp) :: there
     PetscInt :: own(mouth_unknowns)
     integer :: j
 
@@ -105,22 +106,47 @@ contains
     associate (feed => bearing%feed)
       do j = 1, size(feed%mouth)
         own = numbers_of(feed, j)
+        here = mouth_state_type()
+        if (.not. room) here = state_of_mouth(bearing, j, state)
+        call add_flow_columns(bearing, j, here%flow_by_pressure, here%flow_by_gap, matrix)
         associate (mouth => feed%mouth(j), pad => bearing%pad(feed%mouth(j)%pad))
-          call add_block(matrix, merge(-1_pint, number(pad%first + mouth%node), pad%film%fixed(mouth%node)), own(mouth_flow:mouth_flow), &
-                         -there*mouth%part*feed%size(mouth_flow)*mouth%weight)
           call add_block(matrix, own(mouth_mean:mouth_mean), number(pad%first + mouth%node), -there*mouth%weight/feed%size(mouth_mean))
         end associate
         call add_gap_row(bearing, j, there, matrix)
         if (.not. bearing%last_rank) cycle
         call add_block(matrix, own(mouth_mean:mouth_mean), own(mouth_mean:mouth_mean), [there])
         call add_block(matrix, own(mouth_gap:mouth_gap), own(mouth_gap:mouth_gap), [there])
-        law = 0.0_wp
-        if (.not. room) call mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
-        call add_block(matrix, own(mouth_flow:mouth_flow), own, law(2:4)*feed%size/feed%size(mouth_flow))
+        call add_block(matrix, own(mouth_pressure:mouth_pressure), own, here%by*feed%size/feed%size(mouth_pressure)**2)
       end do
     end associate
     call line_jacobian(bearing, state, room, matrix)
   end subroutine feed_jacobian
+
+  !> A mouth at a state of the bearing.
+  pure type(mouth_state_type) function state_of_mouth(bearing, j, state) result(here)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: j !! of the mouth
+    type(bearing_state_type), intent(in) :: state
+    here = mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity)
+  end function state_of_mouth
+
+  !> Film rows by the pressure in a mouth and the gap at it.
+  subroutine add_flow_columns(bearing, j, by_pressure, by_gap, matrix)
+    class(bearing_type), intent(in) :: bearing
+    integer, intent(in) :: j !! of the mouth
+    real(wp), intent(in) :: by_pressure, by_gap !! of what it feeds [m3/s], [Pa m2/s]
+    Mat, intent(in) :: matrix
+    real(wp) :: block(2, size(bearing%feed%mouth(j)%node)) ! a row in each column
+    PetscInt :: own(mouth_unknowns)
+
+    own = numbers_of(bearing%feed, j)
+    associate (feed => bearing%feed, mouth => bearing%feed%mouth(j), pad => bearing%pad(bearing%feed%mouth(j)%pad))
+      block(1, :) = -mouth%part*by_pressure*feed%size(mouth_pressure)*mouth%weight
+      block(2, :) = -mouth%part*by_gap*feed%size(mouth_gap)*mouth%weight
+      call add_block(matrix, merge(-1_pint, number(pad%first + mouth%node), pad%film%fixed(mouth%node)), &
+                     own([mouth_pressure, mouth_gap]), block)
+    end associate
+  end subroutine add_flow_columns
 
   !> What moves the gap at a mouth's centre: foil and shaft.
   subroutine add_gap_row(bearing, j, factor, matrix)
@@ -302,17 +328,20 @@ contains
     type(bearing_state_type), intent(in) :: state
     Mat, intent(in) :: matrix
     type(line_point_type) :: here
-    real(wp) :: law(7), pressure
+    type(mouth_state_type) :: of_mouth
     PetscInt :: own(mouth_unknowns)
     integer :: j, i
 
     associate (feed => bearing%feed)
       do j = 1, size(feed%mouth)
         if (kind == flow_by_gap) call add_foil_of_gap(bearing, j, 1.0_wp, matrix)
-        if (kind /= squeeze .or. .not. bearing%last_rank) cycle
-        call mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
+        if (kind /= squeeze) cycle
+        call add_flow_columns(bearing, j, -feed%volume, 0.0_wp, matrix)
+        if (.not. bearing%last_rank) cycle
         own = numbers_of(feed, j)
-        call add_block(matrix, own(mouth_flow:mouth_flow), own, feed%volume*law(5:7)*feed%size/feed%size(mouth_flow))
+        of_mouth = state_of_mouth(bearing, j, state)
+        call add_block(matrix, own(mouth_pressure:mouth_pressure), own(mouth_pressure:mouth_pressure), &
+                       [-of_mouth%by_flow*feed%volume/feed%size(mouth_pressure)])
       end do
       do j = 1, size(feed%line)
         do i = 1, size(feed%line(j)%orifices)
@@ -342,14 +371,12 @@ contains
     class(bearing_type), intent(in) :: bearing
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp), allocatable, intent(out) :: held(:) !! [Pa m3]
-    real(wp) :: law(7), pressure
     integer :: j
 
     associate (feed => bearing%feed)
       allocate (held(size(feed%mouth)))
       do j = 1, size(held)
-        call mouth_state(feed, j, unknown, bearing%point%supply, bearing%pad(1)%film%flow%viscosity, law, pressure)
-        held(j) = feed%volume*pressure
+        held(j) = feed%volume*unknown(feed%place(j, mouth_pressure))*feed%size(mouth_pressure)
       end do
       do j = 1, size(feed%line)
         associate (line => feed%line(j), before => bearing%pad(feed%line(j)%pad)%first)
@@ -432,6 +459,7 @@ contains
     real(wp), dimension(bearing%local_size()) :: flux, area
     type(bearing_state_type) :: state
     type(line_point_type) :: here
+    type(mouth_state_type) :: of_mouth
     integer :: i, j, element
 
     flux = 0.0_wp
@@ -451,8 +479,9 @@ contains
         end associate
       end do
       do j = 1, size(feed%mouth)
+        of_mouth = state_of_mouth(bearing, j, state)
         associate (mouth => feed%mouth(j), place => bearing%pad(feed%mouth(j)%pad)%first + feed%mouth(j)%node)
-          flux(place) = flux(place) + mouth%part*unknown(feed%place(j, mouth_flow))*feed%size(mouth_flow)*mouth%weight
+          flux(place) = flux(place) + mouth%part*of_mouth%flow*mouth%weight
         end associate
       end do
       do j = 1, size(feed%line)
@@ -472,7 +501,7 @@ contains
     type(film_feed_type), intent(in) :: feed
     integer, intent(in) :: j !! of the mouth
     PetscInt :: own(mouth_unknowns)
-    own = number(feed%place(j, [mouth_flow, mouth_mean, mouth_gap]))
+    own = number(feed%place(j, [mouth_pressure, mouth_mean, mouth_gap]))
   end function numbers_of
 
   !> Local numbers of PETSc, from 0.

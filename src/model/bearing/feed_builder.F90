@@ -7,8 +7,8 @@ module gfb_feed_builder
   use gfb_bearing_case, only: bearing_case_type, pad_angle
   use gfb_fed_mouth, only: mouth_type, find_mouth
   use gfb_feed_case, only: feed_case_type, hole_type, find_holes, feed_porous, spread_line
-  use gfb_feed_law, only: porous_wall_type, orifice_type, largest_orifice_flow
-  use gfb_film_feed, only: film_feed_type, fed_mouth_type, fed_line_type, mouth_flow, mouth_mean, mouth_gap
+  use gfb_feed_law, only: porous_wall_type, orifice_type
+  use gfb_film_feed, only: film_feed_type, fed_mouth_type, fed_line_type, mouth_pressure, mouth_mean, mouth_gap
   use gfb_film_mesh, only: film_mesh_type
   use gfb_pad, only: pad_type
   use gfb_scene, only: scene_type
@@ -199,8 +199,7 @@ contains
       feed%orifice = orifice_type(given%restriction, given%supply_pressure, given%energy, given%specific_heat_ratio, &
                                   given%discharge_coefficient, given%orifice_diameter, given%mouth_diameter, given%flows_back())
       feed%volume = given%pocket_volume
-      feed%size(mouth_flow) = largest_orifice_flow(feed%orifice, bearing%clearance)
-      feed%size(mouth_mean) = bearing%ambient_pressure
+      feed%size([mouth_pressure, mouth_mean]) = bearing%ambient_pressure
       feed%size(mouth_gap) = bearing%clearance
       do i = 1, size(feed%line)
         associate (line => feed%line(i), film => bearing%pad(feed%line(i)%pad)%film)

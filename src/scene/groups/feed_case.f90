@@ -62,7 +62,7 @@ module gfb_feed_case
     integer :: backflow = 1                  !! 1: gas may leave through orifices
     integer :: through = through_nothing
   contains
-    procedure, non_overridable :: has_orifices, holes_of_row, flows_back, mirrors
+    procedure, non_overridable :: has_orifices, holes_of_row, flows_back, mirrors, gap_size
   end type feed_case_type
 
   !> Where an orifice lies on a pad.
@@ -247,6 +247,29 @@ contains
                                self%spread == spread_line)
     end associate
   end function mirrors
+
+  !> The gap at which film and supply resist alike, near which a fed film is stiffest; 0 where nothing
+  !> says it.
+  !>
+  !> A wall of the film's width w: \( h^3 = 3 \kappa w^2/H \). n choked holes, and a film from
+  !> them to both edges: \( h^3 = 1.5 \mu \sqrt{R_g T_s} \, n C_d d^2 \psi/p_s \).
+  pure real(wp) function gap_size(self, viscosity, width) result(gap)
+    class(feed_case_type), intent(in) :: self !! what `&feed` asks for
+    real(wp), intent(in) :: viscosity !! of the gas [Pa s]
+    real(wp), intent(in) :: width     !! of the film across the motion [m]
+    real(wp), parameter :: choked = 0.68_wp !! psi of air [1]
+    real(wp) :: holes
+
+    gap = 0.0_wp
+    if (.not. self%present) return
+    if (self%kind == feed_porous .and. self%wall_thickness > 0.0_wp) then
+      gap = (3.0_wp*self%permeability*width**2/self%wall_thickness)**(1.0_wp/3.0_wp)
+    else if (self%has_orifices() .and. self%supply_pressure > 0.0_wp) then
+      holes = real(self%holes_of_row()*size(self%row_positions), wp)
+      gap = (1.5_wp*viscosity*sqrt(self%energy)*holes*self%discharge_coefficient*choked* &
+             self%orifice_diameter**2/self%supply_pressure)**(1.0_wp/3.0_wp)
+    end if
+  end function gap_size
 
   !> Whether gas may leave through orifices.
   pure logical function flows_back(self)
