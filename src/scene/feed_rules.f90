@@ -43,8 +43,8 @@ contains
                      "must be 'monolithic' with &feed")
       call keys%rule(feed_group, 'kind', feed%kind == feed_porous .and. model%foil%has_top_foil, &
                      "must be 'orifices' under a top foil, through which no wall feeds")
-      call keys%rule(feed_group, 'through', feed%has_orifices() .and. model%foil%has_top_foil .and. &
-                     feed%through == 0 .and. model%foil%is_known(), "must be given, 'top_foil': "// &
+      call keys%rule(feed_group, 'through', feed%has_orifices() .and. feed%through == 0 .and. &
+                     model%foil%has_top_foil .and. model%foil%is_known(), "must be given, 'top_foil': "// &
                      'holes of the sleeve end under the foil')
       call keys%rule(feed_group, 'through', feed%through > 0 .and. model%foil%is_known() .and. &
                      .not. model%foil%has_top_foil, "needs a top foil: foil = 'beam', 'plate' or "// &
@@ -54,8 +54,8 @@ contains
       if (feed%kind == feed_porous .and. min(feed%wall_thickness, bearing%length) > 0.0_wp) then
         if (feed%wall_thickness > thin_wall*bearing%length) then
           call keys%warn(feed_group, 'wall_thickness', 'is more than a fifth of the width of '// &
-                         text(bearing%length)//' m: gas flows along the wall, too, which is not '// &
-                         'modelled')
+                         text(bearing%length)//' m: gas flows along the wall, too, which is '// &
+                         'not modelled')
         end if
       end if
       if (feed%has_orifices()) call check_mouths(keys, scene)

@@ -110,17 +110,7 @@ contains
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, scene%bearing, state, &
                                scene%shaft_contact%present .or. scene%feed%present)
-      if (scene%bearing%row%has_sectors) then
-        scene%bearing%clearance = max(size_of_gap(scene%bearing, scene%operation, &
-                                                  scene%gas%viscosity, &
-                                                  scene%gas%ambient_pressure), &
-                                      scene%feed%gap_size(scene%gas%viscosity, &
-                                                          scene%bearing%length))
-        if (scene%operation%axial_gap > 0.0_wp) then
-          scene%bearing%clearance = size_of_gap(scene%bearing, scene%operation, &
-                                                scene%gas%viscosity, scene%gas%ambient_pressure)
-        end if
-      end if
+      if (scene%bearing%row%has_sectors) call size_gap(scene)
       call read_dynamics_case(keys, scene%dynamics, scene%operation, analysis)
       call read_rotor_case(keys, scene%rotor, scene%bearing%row, analysis)
       call read_transient_case(keys, scene%transient, scene%operation, analysis)
@@ -163,6 +153,18 @@ contains
     end associate
     scene%general%analysis = state
   end subroutine read_groups
+
+  !> Sizes of gaps of a thrust bearing are measured by one of its own: that which is held, or that of
+  !> its ramp, its speed, or its supply, whichever is larger.
+  pure subroutine size_gap(scene)
+    type(scene_type), intent(inout) :: scene
+
+    associate (gas => scene%gas, bearing => scene%bearing)
+      bearing%clearance = size_of_gap(bearing, scene%operation, gas%viscosity, gas%ambient_pressure)
+      if (scene%operation%axial_gap > 0.0_wp) return
+      bearing%clearance = max(bearing%clearance, scene%feed%gap_size(gas%viscosity, bearing%length))
+    end associate
+  end subroutine size_gap
 
   !> Smallest density of the foils that have a mesh; 0 where one of them has none [kg/m^3].
   pure real(wp) function foil_density(scene) result(density)

@@ -248,8 +248,8 @@ contains
     end associate
   end function mirrors
 
-  !> The gap at which film and supply resist alike, near which a fed film is stiffest; 0 where nothing
-  !> says it.
+  !> The gap at which film and supply resist alike, near which a fed film is stiffest; 0 where
+  !> nothing says it.
   !>
   !> A wall of the film's width w: \( h^3 = 3 \kappa w^2/H \). n choked holes, and a film from
   !> them to both edges: \( h^3 = 1.5 \mu \sqrt{R_g T_s} \, n C_d d^2 \psi/p_s \).

@@ -112,8 +112,6 @@ contains
     type(run_log_type), intent(in) :: log !! where lines go
     type(bearing_plan_type), intent(out) :: plan !! what was chosen
     character(len=:), allocatable :: asked
-    type(film_mesh_type) :: mesh
-    character(len=:), allocatable :: finer
     integer :: nodes, films, sides
 
     plan%order = scene%model%film_order
@@ -138,18 +136,7 @@ contains
                        ' ranks have nothing to do: the pad has '//text(plan%circumferential)// &
                        ' columns of elements to share out')
     end if
-    nodes = (plan%order*plan%circumferential + 1)*solved_rows(scene, plan%half)
-    mesh = film_mesh_of(scene, plan)
-    finer = ''
-    if (scene%feed%has_orifices() .and. mesh%nodes() > nodes) then
-      finer = ', finer at orifices'
-      nodes = mesh%nodes()
-    end if
-    call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
-                  trim(merge(' biquadratic', '            ', &
-                             plan%order == film_order_biquadratic))// &
-                  ' elements over the whole pad'//finer//', '//text(nodes)//' nodes solved')
-    call warn_of_change(mesh, scene%bearing%row%coordinate, log)
+    call show_mesh(scene, plan, log, nodes)
     sides = scene%bearing%all_pads()/scene%bearing%pads
     if (sides > 1) then
       call log%line('runner between two bearings: a mirror image of this one faces its '// &
@@ -190,6 +177,29 @@ contains
       call log%line('sweep: '//text(size(scene%sweep%values))//' points')
     end if
   end subroutine plan_bearing
+
+  !> Says what mesh the film has.
+  subroutine show_mesh(scene, plan, log, nodes)
+    type(scene_type), intent(in) :: scene
+    type(bearing_plan_type), intent(in) :: plan
+    type(run_log_type), intent(in) :: log
+    integer, intent(out) :: nodes !! that are solved
+    type(film_mesh_type) :: mesh
+    character(len=:), allocatable :: finer
+
+    nodes = (plan%order*plan%circumferential + 1)*solved_rows(scene, plan%half)
+    mesh = film_mesh_of(scene, plan)
+    finer = ''
+    if (scene%feed%has_orifices() .and. mesh%nodes() > nodes) then
+      finer = ', finer at orifices'
+      nodes = mesh%nodes()
+    end if
+    call log%line('film mesh: '//text(plan%circumferential)//' x '//text(plan%axial)// &
+                  trim(merge(' biquadratic', '            ', &
+                             plan%order == film_order_biquadratic))// &
+                  ' elements over the whole pad'//finer//', '//text(nodes)//' nodes solved')
+    call warn_of_change(mesh, scene%bearing%row%coordinate, log)
+  end subroutine show_mesh
 
   !> Warns of elements of the film that are out of proportion to those beside them.
   subroutine warn_of_change(mesh, coordinate, log)
