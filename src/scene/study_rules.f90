@@ -63,7 +63,7 @@ contains
         call keys%rule('sweep', parameter, .not. analysis%holds, &
                        "needs analysis = 'fixed_position'")
       case (sweep_speed)
-        if (floats .and. .not. scene%shaft_contact%present) then
+        if (floats .and. .not. (scene%shaft_contact%present .or. scene%feed%present)) then
           call check_zeros(keys, scene, 'must be positive: a film without speed carries no load')
         end if
       case default
