@@ -88,8 +88,8 @@ contains
         found = found + size(hole)
         do i = 1, size(hole)
           half = 0.5_wp*feed%mouth_diameter/max(surface%radius_at(hole(i)%along), tiny(half))
-          if (.not. bearing%is_ring() .and. arc < turn .and. &
-              (hole(i)%angle - half <= start .or. hole(i)%angle + half >= start + arc)) then
+          if (.not. bearing%is_ring() .and. (hole(i)%angle - half <= start .or. &
+                                             hole(i)%angle + half >= start + arc)) then
             call keys%complain(feed_group, key, 'puts the mouth of orifice '// &
                                text(hole(i)%number)//' across an edge of pad '//text(pad))
             return
