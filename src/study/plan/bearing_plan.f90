@@ -342,6 +342,8 @@ contains
         call log%line('width: whole, because the strips do not mirror each other')
       else if (.not. heat_mirrors(scene)) then
         call log%line('width: whole, because heat leaves one end otherwise than the other')
+      else if (.not. scene%feed%mirrors()) then
+        call log%line('width: whole, because the rows of orifices do not mirror each other')
       else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')
       else if (symmetric) then
