@@ -16,7 +16,8 @@ module gfb_feed_rules
   private
   public :: check_feed
 
-  real(wp), parameter :: thin_wall = 0.2_wp !! of the film's width: gas flows along a thicker one [1]
+  !> Of the film's width: gas flows along a thicker wall [1].
+  real(wp), parameter :: thin_wall = 0.2_wp
 
 contains
 
@@ -37,18 +38,18 @@ contains
       call keys%rule(feed_group, 'kind', any(gas%law%density == &
                      [density_peng_robinson, density_table]), 'cannot stand beside '// &
                      'equation_of_state or a table of the gas in this version')
-      call keys%rule(feed_group, 'kind', bearing%play > 0.0_wp, 'cannot stand beside axial_play '// &
-                     'in &bearing in this version')
+      call keys%rule(feed_group, 'kind', bearing%play > 0.0_wp, 'cannot stand beside '// &
+                     'axial_play in &bearing in this version')
       call keys%rule('model', 'coupling', model%coupling == coupling_partitioned, &
                      "must be 'monolithic' with &feed")
       call keys%rule(feed_group, 'kind', feed%kind == feed_porous .and. model%foil%has_top_foil, &
                      "must be 'orifices' under a top foil, through which no wall feeds")
       call keys%rule(feed_group, 'through', feed%has_orifices() .and. feed%through == 0 .and. &
-                     model%foil%has_top_foil .and. model%foil%is_known(), "must be given, 'top_foil': "// &
-                     'holes of the sleeve end under the foil')
+                     model%foil%has_top_foil .and. model%foil%is_known(), 'must be given, '// &
+                     "'top_foil': holes of the sleeve end under the foil")
       call keys%rule(feed_group, 'through', feed%through > 0 .and. model%foil%is_known() .and. &
-                     .not. model%foil%has_top_foil, "needs a top foil: foil = 'beam', 'plate' or "// &
-                     "'shell' in &model")
+                     .not. model%foil%has_top_foil, "needs a top foil: foil = 'beam', "// &
+                     "'plate' or 'shell' in &model")
       call keys%rule('bearing', 'inner_edge', bearing%inner_edge > 1 .and. &
                      .not. bearing%row%has_sectors, needs_thrust)
       if (feed%kind == feed_porous .and. min(feed%wall_thickness, bearing%length) > 0.0_wp) then

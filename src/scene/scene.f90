@@ -160,7 +160,8 @@ contains
     type(scene_type), intent(inout) :: scene
 
     associate (gas => scene%gas, bearing => scene%bearing)
-      bearing%clearance = size_of_gap(bearing, scene%operation, gas%viscosity, gas%ambient_pressure)
+      bearing%clearance = size_of_gap(bearing, scene%operation, gas%viscosity, &
+                                      gas%ambient_pressure)
       if (scene%operation%axial_gap > 0.0_wp) return
       bearing%clearance = max(bearing%clearance, scene%feed%gap_size(gas%viscosity, bearing%length))
     end associate

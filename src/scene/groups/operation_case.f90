@@ -123,20 +123,17 @@ contains
   end subroutine read_operation_case
 
   !> Size of a thrust bearing's gap: that asked for, or half of its ramp, or that of a bearing
-  !> number 6 mu Omega/p_a (R/h)^2 of 10 where it has none; of flat pads that are fed at rest a share
-  !> of the radius.
+  !> number 6 mu Omega/p_a (R/h)^2 of 10 where it has none.
   pure real(wp) function size_of_gap(bearing, operation, viscosity, ambient_pressure) result(gap)
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` and `&ramp` ask for
     type(operation_case_type), intent(in) :: operation !! what `&operation` asks for
     real(wp), intent(in) :: viscosity, ambient_pressure !! of the gas [Pa s], [Pa]
     real(wp), parameter :: usual_number = 10.0_wp
-    real(wp), parameter :: usual_share = 5.0e-4_wp !! of a fed film of the radius [1]
 
     gap = max(operation%axial_gap, 0.5_wp*bearing%ramp_height)
     if (gap > 0.0_wp .or. .not. ambient_pressure > 0.0_wp) return
     gap = bearing%radius*sqrt(6.0_wp*viscosity*angular_speed(operation%speed_rpm)/ &
                               (usual_number*ambient_pressure))
-    if (.not. gap > 0.0_wp) gap = usual_share*bearing%radius
   end function size_of_gap
 
   !> Angular speed [rad/s].
