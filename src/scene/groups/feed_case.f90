@@ -89,11 +89,11 @@ contains
                           misplaced=analysis%refusal(feed_group), acts_on=acts_on_film)
     call keys%idle(unless(feed%present, 'the file has no group &feed'))
     call keys%choice_key('kind', feed%kind, kind_words, 'gas enters through a porous wall '// &
-                         'behind the whole surface, or through orifices', required=feed%present)
+                         'behind the whole surface, or through orifices', required=.true.)
     of_wall = unless(any(feed%kind == [0, feed_porous]), porous_only)
     of_holes = unless(any(feed%kind == [0, feed_orifices]), orifices_only)
     call keys%real_key('supply_pressure', feed%supply_pressure, 'Pa', 'absolute pressure of '// &
-                       'the supply', positive, feed%present)
+                       'the supply', positive, .true.)
     if (gas%temperature > 0.0_wp) feed%supply_temperature = gas%temperature
     call keys%real_key('supply_temperature', feed%supply_temperature, 'K', 'temperature of the '// &
                        'gas that is fed in', from_to(coldest, hottest), &
