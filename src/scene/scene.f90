@@ -154,8 +154,8 @@ contains
     scene%general%analysis = state
   end subroutine read_groups
 
-  !> Sizes of gaps of a thrust bearing are measured by one of its own: that which is held, or that of
-  !> its ramp, its speed, or its supply, whichever is larger.
+  !> Sizes of gaps of a thrust bearing are measured by one of its own: that which is held, or that
+  !> of its ramp, its speed, or its supply, whichever is larger.
   pure subroutine size_gap(scene)
     type(scene_type), intent(inout) :: scene
 

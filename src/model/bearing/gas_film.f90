@@ -579,8 +579,8 @@ contains
       end if
       if (self%wall%present) then
         call wall_jacobian(self%geometry(element), self%flow_at(point), self%law, &
-                           self%wall_at(point), p(:n), h(:n), excess(:n), by_pressure, by_gap, by_excess, &
-                           self%factors_of(element))
+                           self%wall_at(point), p(:n), h(:n), excess(:n), by_pressure, by_gap, &
+                           by_excess, self%factors_of(element))
       end if
       if (allocated(self%past)) then
         call storage_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), h(:n), &
