@@ -352,6 +352,7 @@ contains
     call log%line('power loss       '//engineering_text(answer%power_loss, 'W', 1.0_wp)// &
                   '   friction torque '// &
                   engineering_text(answer%friction_torque, 'mN m', 1.0e3_wp))
+    if (answer%feed%present) call show_feed(log, answer%feed)
     if (answer%heat%present) call show_heat(log, answer%heat, .not. answer%ring%present)
     call log%line('pressure         '// &
                   engineering_text(answer%minimum_pressure, 'to', 1.0e-3_wp)//' '// &
@@ -401,6 +402,21 @@ contains
       end if
     end associate
   end subroutine show_bearing_of_runner
+
+  !> What the supply gives.
+  subroutine show_feed(log, feed)
+    type(run_log_type), intent(in) :: log
+    type(feed_answer_type), intent(in) :: feed
+    character(len=:), allocatable :: words
+
+    words = 'supply           '//engineering_text(feed%flow, 'g/s', 1.0e3_wp)//'   power '// &
+            engineering_text(feed%power, 'W', 1.0_wp)//' to compress it'
+    if (feed%choked > 0) words = words//'; '//text(feed%choked)//' orifice(s) choked'
+    if (feed%backflow > 0) then
+      words = words//'; gas leaves the film through '//text(feed%backflow)//' orifice(s)'
+    end if
+    call log%line(words)
+  end subroutine show_feed
 
   !> Where the runner is, and what the foils do.
   subroutine show_runner(log, answer)

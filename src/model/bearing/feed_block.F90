@@ -277,49 +277,37 @@ contains
     do j = 1, size(bearing%feed%line)
       do i = 1, size(bearing%feed%line(j)%orifices)
         if (.not. room) here = line_point(bearing, j, i, state)
-        call add_line_block(bearing, j, i, here%by_pressure, here%by_gap, matrix)
-        call add_line_shaft(bearing, j, i, here%by_gap, matrix)
+        call add_line_block(bearing, j, i, here%by_pressure, here%by_gap, here%by_gap, matrix)
       end do
     end do
   end subroutine line_jacobian
 
-  !> Film rows by pressures, and by what moves the foil, at a point of a line.
-  subroutine add_line_block(bearing, j, i, by_pressure, by_gap, matrix)
+  !> Film rows by pressures, by what moves the foil, and by the shaft, at a point of a line.
+  subroutine add_line_block(bearing, j, i, by_pressure, by_gap, by_shaft, matrix)
     class(bearing_type), intent(in) :: bearing
     integer, intent(in) :: j, i
-    real(wp), intent(in) :: by_pressure, by_gap !! of what an orifice feeds
+    real(wp), intent(in) :: by_pressure, by_gap !! of what an orifice feeds [m3/s], [Pa m2/s]
+    real(wp), intent(in) :: by_shaft !! by the gap as the shaft moves it [Pa m2/s]
     Mat, intent(in) :: matrix
-    real(wp) :: block(2*size(bearing%feed%line(j)%node), size(bearing%feed%line(j)%node)) ! a row in each column
+    ! a row in each column
+    real(wp) :: block(2*size(bearing%feed%line(j)%node) + size(bearing%coordinate), size(bearing%feed%line(j)%node))
     PetscInt :: row(size(block, 2)), column(size(block, 1))
-    integer :: n, source(size(row))
+    integer :: n, k, source(size(row))
 
     n = size(row)
     associate (line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad))
       row = merge(-1_pint, number(pad%first + line%node), pad%film%fixed(line%node))
       column(:n) = number(pad%first + line%node)
       source = pad%foil%source(line%node)
-      column(n + 1:) = merge(number(pad%first + source), -1_pint, source > 0)
+      column(n + 1:2*n) = merge(number(pad%first + source), -1_pint, source > 0)
+      column(2*n + 1:) = number([(bearing%first_shaft + k, k=1, size(bearing%coordinate))])
       block(:n, :) = -line%orifices(i)*by_pressure*spread(line%shape(:, i), 2, n)*spread(line%shape(:, i), 1, n)
-      block(n + 1:, :) = -line%orifices(i)*by_gap*spread(line%shape(:, i)*pad%foil%rate(line%node), 2, n)*spread(line%shape(:, i), 1, n)
+      block(n + 1:2*n, :) = -line%orifices(i)*by_gap*spread(line%shape(:, i)*pad%foil%rate(line%node), 2, n)*spread(line%shape(:, i), 1, n)
+      block(2*n + 1:, :) = -line%orifices(i)*by_shaft*spread(line%motion(bearing%coordinate, i), 2, n)* &
+        spread(line%shape(:, i), 1, size(bearing%coordinate))
       call add_block(matrix, row, column, block)
     end associate
   end subroutine add_line_block
-
-  !> The same by the shaft.
-  subroutine add_line_shaft(bearing, j, i, by_gap, matrix)
-    class(bearing_type), intent(in) :: bearing
-    integer, intent(in) :: j, i
-    real(wp), intent(in) :: by_gap
-    Mat, intent(in) :: matrix
-    PetscInt, allocatable :: row(:)
-    integer :: k
-
-    associate (line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad), coordinate => bearing%coordinate)
-      row = merge(-1_pint, number(pad%first + line%node), pad%film%fixed(line%node))
-      call add_block(matrix, row, number([(bearing%first_shaft + k, k=1, size(coordinate))]), &
-                     -line%orifices(i)*by_gap*spread(line%motion(coordinate, i), 2, size(row))*spread(line%shape(:, i), 1, size(coordinate)))
-    end associate
-  end subroutine add_line_shaft
 
   !> What pockets store, by the unknowns; and what of the gap at mouths and lines comes by the foil.
   subroutine feed_rates(bearing, kind, state, matrix)
@@ -345,10 +333,10 @@ contains
       end do
       do j = 1, size(feed%line)
         do i = 1, size(feed%line(j)%orifices)
-          if (kind == squeeze) call add_line_block(bearing, j, i, -feed%volume, 0.0_wp, matrix)
+          if (kind == squeeze) call add_line_block(bearing, j, i, -feed%volume, 0.0_wp, 0.0_wp, matrix)
           if (kind /= flow_by_gap) cycle
           here = line_point(bearing, j, i, state)
-          call add_line_block(bearing, j, i, 0.0_wp, here%by_gap, matrix)
+          call add_line_block(bearing, j, i, 0.0_wp, here%by_gap, 0.0_wp, matrix)
         end do
       end do
     end associate

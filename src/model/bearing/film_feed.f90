@@ -1,11 +1,11 @@
 !> What feeds a bearing's films in numbers: the porous wall, or orifices with their places on this
 !> rank's nodes, and where their unknowns stand.
 !>
-!> A mouth has three unknowns, which the last rank owns: the pressure in it and the film's mean on its
-!> rim, over ambient pressure, and the gap at its centre over the clearance. Two of its equations are
-!> sums over nodes, to which each rank adds its own; the third fits its pressure to the film's. What
-!> it feeds follows from them: with the flow as an unknown in place of its pressure thin films, whose
-!> pressure is next to the supply's, had matrices whose factors filled (0.55 s in place of 0.04).
+!> A mouth has three unknowns, which the last rank owns: the pressure in it and the film's mean on
+!> its rim, over ambient pressure, and the gap at its centre over the clearance. Two of its
+!> equations are sums over nodes, to which each rank adds its own; the third fits its pressure to the film's.
+!> What it feeds follows from them: with the flow as an unknown in place of its pressure thin films,
+!> whose pressure is next to the supply's, had matrices whose factors filled (0.55 s for 0.04).
 module gfb_film_feed
   use gfb_kinds, only: wp
   use gfb_feed_law, only: porous_wall_type, orifice_type, orifice_flow, rim_balance, supply_at
@@ -13,7 +13,8 @@ module gfb_film_feed
   private
   public :: mouth_state
 
-  integer, parameter, public :: mouth_pressure = 1, mouth_mean = 2, mouth_gap = 3, mouth_unknowns = 3
+  integer, parameter, public :: mouth_pressure = 1, mouth_mean = 2, mouth_gap = 3
+  integer, parameter, public :: mouth_unknowns = 3
 
   !> A mouth on this rank; places are those of a pad's local nodes that the rank owns.
   type, public :: fed_mouth_type
@@ -93,8 +94,8 @@ contains
     orifice%supply_pressure = supply_at(orifice%supply_pressure, self%ambient, part)
   end function orifice_at
 
-  !> A mouth at a state: what its orifice lets through, less what its pocket takes, and how its pressure
-  !> fits that of the film.
+  !> A mouth at a state: what its orifice lets through, less what its pocket takes, and how its
+  !> pressure fits that of the film.
   !>
   !> $$ q = q_o(p_d, h) - V \frac{dp_d}{dt}, \quad p_d^2 - p_0^2 - \beta q/k = 0 $$
   !>

@@ -69,7 +69,8 @@ module gfb_gas_film
     type(frozen_heat_type), allocatable :: frozen !! none: the gas has the temperature of its law
   contains
     procedure, non_overridable :: put, put_shape, interference
-    procedure, non_overridable :: flow_at, wall_at, cell_flow, shadow, factors_of, element_gap, softness_of
+    procedure, non_overridable :: flow_at, wall_at, cell_flow, shadow, factors_of, element_gap
+    procedure, non_overridable :: softness_of
     procedure, non_overridable :: gap => film_node_gap
     procedure, non_overridable :: excess => film_excess
     procedure, non_overridable :: is_open
@@ -530,8 +531,9 @@ contains
                                 self%factors_of(element))
         end if
         if (self%wall%present) then
-          share(:n) = share(:n) + wall_residual(geometry, flow, self%law, self%wall_at(point), p(:n), &
-                                                h(:n), excess(:n), self%factors_of(element))
+          share(:n) = share(:n) + wall_residual(geometry, flow, self%law, self%wall_at(point), &
+                                                p(:n), h(:n), excess(:n), &
+                                                self%factors_of(element))
         end if
         if (allocated(self%past)) then
           share(:n) = share(:n) + storage_residual(geometry, flow, self%law, p(:n), h(:n), &

@@ -268,6 +268,8 @@ contains
     integer :: outcome
 
     path%bearing%point = path%reached ! not the one that was tried last
+    continues = .false.
+    if (path%bearing%times_filled == 0) return ! no step has begun: nothing is known of what lies beyond
     left = 1.0_wp - path%at
     call look_beyond(path%bearing, path%newton, path%target, path%before, path%at_before >= 0.0_wp, &
                      min(1.0_wp, 2.0_wp*path%smallest/left), outcome, ahead)

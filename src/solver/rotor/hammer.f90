@@ -31,6 +31,7 @@ module gfb_hammer
   type, public :: hammer_type
     logical :: searched = .false.      !! all frequencies could be looked at
     logical :: found = .false.         !! some mass grows
+    logical :: always = .false.        !! the film drives at all frequencies that were looked at
     real(wp) :: critical_mass = 0.0_wp !! [kg]
     real(wp) :: frequency = 0.0_wp     !! at which [rad/s]
   end type hammer_type
@@ -68,9 +69,11 @@ contains
     integer :: i
 
     hammer%searched = .true.
+    hammer%always = .true.
     before = coefficient_at(model, frequency(1))
     do i = 2, size(frequency)
       here = coefficient_at(model, frequency(i))
+      hammer%always = hammer%always .and. aimag(here) < -round_off*abs(here)
       if (aimag(before) < -round_off*abs(before) .and. aimag(here) > 0.0_wp) then
         call refine(model, frequency(i - 1:i), [aimag(before), aimag(here)], hammer)
       end if

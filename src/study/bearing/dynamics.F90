@@ -448,6 +448,8 @@ contains
                     ' kg grow along the axis, at '//text(hammer%frequency, 5)//' rad/s')
       call add_result(found, 'critical_mass', hammer%critical_mass)
       call add_result(found, 'hammer_frequency', hammer%frequency)
+    else if (hammer%searched .and. hammer%always) then
+      call log%line('pneumatic hammer: the film drives motions along the axis at all frequencies up to 1e6 rad/s')
     else if (hammer%searched) then
       call log%line('no pneumatic hammer: the film damps motions along the axis at all frequencies')
     else
