@@ -174,15 +174,15 @@ contains
                     - (gamma + 1.0_wp)*ratio**(1.0_wp/gamma))/gamma
   end subroutine factor_square
 
-  !> What a mouth whose rim the mesh of the film smears lacks: zero where its pressure fits the film's,
-  !> and the derivatives.
+  !> What a mouth whose rim the mesh of the film smears lacks: zero where its pressure fits the
+  !> film's, and the derivatives.
   !>
   !> $$ r = p_d^2 - p_0^2 - \beta \frac{q}{k}, \quad k = \frac{h^3}{24 \mu} $$
   !>
-  !> Around a mouth \( p^2 \) is a logarithm, which no mesh follows: \( \beta \) is what the mean of
-  !> a unit source on the rim lacks on this mesh, for an even gap.
-  elemental subroutine rim_balance(lack, viscosity, pressure, mean, gap, flow, balance, by_pressure, &
-                                   by_mean, by_gap, by_flow)
+  !> Around a mouth \( p^2 \) is a logarithm, which no mesh follows: \( \beta \) is what the mean
+  !> of a unit source on the rim lacks on this mesh, for an even gap.
+  elemental subroutine rim_balance(lack, viscosity, pressure, mean, gap, flow, balance, &
+                                   by_pressure, by_mean, by_gap, by_flow)
     real(wp), intent(in) :: lack      !! beta [1]
     real(wp), intent(in) :: viscosity !! mu [Pa s]
     real(wp), intent(in) :: pressure  !! p_d, in the mouth [Pa]

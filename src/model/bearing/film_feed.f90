@@ -3,9 +3,10 @@
 !>
 !> A mouth has three unknowns, which the last rank owns: the pressure in it and the film's mean on
 !> its rim, over ambient pressure, and the gap at its centre over the clearance. Two of its
-!> equations are sums over nodes, to which each rank adds its own; the third fits its pressure to the film's.
-!> What it feeds follows from them: with the flow as an unknown in place of its pressure thin films,
-!> whose pressure is next to the supply's, had matrices whose factors filled (0.55 s for 0.04).
+!> equations are sums over nodes, to which each rank adds its own; the third fits its pressure to
+!> the film's. What it feeds follows from them: with the flow as an unknown in place of its pressure
+!> thin films, whose pressure is next to the supply's, had matrices whose factors filled (0.55 s for
+!> 0.04).
 module gfb_film_feed
   use gfb_kinds, only: wp
   use gfb_feed_law, only: porous_wall_type, orifice_type, orifice_flow, rim_balance, supply_at
