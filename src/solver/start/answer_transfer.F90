@@ -115,7 +115,12 @@ contains
           unknown(block%first(1) + i:block%first(1) + block%fields*nodes:block%fields) = &
             film_field(small, small%field(coarse, k, i), around, share)
         end do
-        if (associated(block%groups)) call transfer_groups(small, coarse, small%block(k), bearing, block, unknown)
+        if (associated(block%groups)) then
+          call transfer_groups(small, coarse, small%block(k), bearing, block, unknown)
+        else if (small%block(k)%scalars == block%scalars) then
+          unknown(block%first_scalar + 1:block%first_scalar + block%scalars) = &
+            coarse(small%block(k)%first_scalar + 1:small%block(k)%first_scalar + block%scalars)
+        end if
       end do
       call bearing%set_unknowns(unknown)
     end associate
