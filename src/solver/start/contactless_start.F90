@@ -23,8 +23,8 @@ module gfb_contactless_start
   private
   public :: try_from_rest, try_laid_down, try_from_gap
 
-  integer, parameter :: max_iterations = 16     !! of the load at once: in place of 10 it makes 30 of 48 rigid journals cheaper, none
-                                                !! dearer; 24 makes two cheaper and three dearer
+  !> Of the load at once: by 10 no one of 48 rigid journals is cheaper and 30 are dearer, by 24 two are cheaper and three dearer.
+  integer, parameter :: max_iterations = 16
   integer, parameter :: galerkin_steps = 2      !! of a path, before SUPG is asked
   real(wp), parameter :: aside = 0.25_wp*pi !! attitude of a shaft that does not lie where the load presses it [rad]
   real(wp), parameter :: behind_load = 0.1_wp   !! attitude of a shaft that is laid down; heavy loads leave 0 to 6 degrees [rad]
