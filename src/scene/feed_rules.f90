@@ -5,7 +5,8 @@ module gfb_feed_rules
   use gfb_bearing_case, only: pad_angle
   use gfb_bearing_row, only: needs_thrust
   use gfb_case_keys, only: case_keys_type
-  use gfb_feed_case, only: feed_group, feed_porous, hole_type, find_holes, spread_rim
+  use gfb_feed_case, only: feed_group, feed_porous, hole_type, find_holes, spread_rim, &
+                           through_sleeve, through_top_foil
   use gfb_film_surface, only: film_surface_type
   use gfb_bearing_case, only: surface_of
   use gfb_gas_law, only: density_peng_robinson, density_table
@@ -44,11 +45,13 @@ contains
                      "must be 'monolithic' with &feed")
       call keys%rule(feed_group, 'kind', feed%kind == feed_porous .and. model%foil%has_top_foil, &
                      "must be 'orifices' under a top foil, through which no wall feeds")
-      call keys%rule(feed_group, 'through', feed%has_orifices() .and. feed%through == 0 .and. &
-                     model%foil%has_top_foil .and. model%foil%is_known(), 'must be given, '// &
+      call keys%rule(feed_group, 'through', feed%has_orifices() .and. &
+                     feed%through == through_sleeve .and. model%foil%has_top_foil .and. &
+                     model%foil%is_known(), 'must be given, '// &
                      "'top_foil': holes of the sleeve end under the foil")
-      call keys%rule(feed_group, 'through', feed%through > 0 .and. model%foil%is_known() .and. &
-                     .not. model%foil%has_top_foil, "needs a top foil: foil = 'beam', "// &
+      call keys%rule(feed_group, 'through', feed%through == through_top_foil .and. &
+                     model%foil%is_known() .and. .not. model%foil%has_top_foil, &
+                     "needs a top foil: foil = 'beam', "// &
                      "'plate' or 'shell' in &model")
       call keys%rule('bearing', 'inner_edge', bearing%inner_edge > 1 .and. &
                      .not. bearing%row%has_sectors, needs_thrust)

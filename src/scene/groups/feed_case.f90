@@ -21,15 +21,15 @@ module gfb_feed_case
   integer, parameter, public :: feed_porous = 1, feed_orifices = 2
   integer, parameter, public :: spread_rim = 1  !! gas enters on the rims of mouths
   integer, parameter, public :: spread_line = 2 !! evenly along each row
-  integer, parameter, public :: through_nothing = 0 !! not given: holes in the sleeve
-  integer, parameter, public :: through_top_foil = 1
+  integer, parameter, public :: through_sleeve = 1   !! holes in it end at the film
+  integer, parameter, public :: through_top_foil = 2
 
   character(len=*), parameter :: kind_words(*) = [character(len=8) :: 'porous', 'orifices']
   character(len=*), parameter :: restriction_words(*) = [character(len=7) :: 'series', &
                                                          'curtain', 'hole']
   character(len=*), parameter :: spread_words(*) = [character(len=4) :: 'rim', 'line']
   character(len=*), parameter :: backflow_words(*) = [character(len=3) :: 'yes', 'no']
-  character(len=*), parameter :: through_words(*) = [character(len=8) :: 'top_foil']
+  character(len=*), parameter :: through_words(*) = [character(len=8) :: 'sleeve', 'top_foil']
   character(len=*), parameter :: porous_only = "needs kind = 'porous'"
   character(len=*), parameter :: orifices_only = "needs kind = 'orifices'"
   real(wp), parameter :: most_orifices = 1000.0_wp !! of a row
@@ -60,7 +60,7 @@ module gfb_feed_case
     real(wp) :: specific_heat_ratio = 1.4_wp
     integer :: spread = spread_rim
     integer :: backflow = 1                  !! 1: gas may leave through orifices
-    integer :: through = through_nothing
+    integer :: through = through_sleeve
   contains
     procedure, non_overridable :: has_orifices, holes_of_row, flows_back, mirrors, gap_size
   end type feed_case_type
@@ -132,7 +132,7 @@ contains
     call keys%choice_key('backflow', feed%backflow, backflow_words, 'whether gas of the film '// &
                          'may leave through orifices; check valves keep it', useless=of_holes)
     call keys%choice_key('through', feed%through, through_words, 'orifices are holes of the '// &
-                         'top foil, or tubes fixed to it', useless=of_holes)
+                         'sleeve, or of the top foil', useless=of_holes)
     call check_holes(keys, feed, bearing, given)
   end subroutine read_feed_case
 
