@@ -250,6 +250,18 @@ module gfb_result_table
       'of the first'), &
     result_type('mouth_pressure_<n>', 'Pa', number, bearing, 'in the mouth of orifice n')]
 
+  type(result_type), parameter :: groovings(*) = [ &
+    result_type('pumped_pressure', 'Pa', number, bearing, &
+      'to which grooves raise the film over ambient', &
+      'with `&grooves`: largest mean along the motion of the pressure over ambient'), &
+    result_type('flow_low', 'Pa m^3/s', number, bearing, &
+      'of gas out of the end of lower z, or radius', &
+      'the same: p times the volume of gas a time that leaves the end of lower z, or the inner '// &
+      'radius; over Rg T it is the mass flow'), &
+    result_type('flow_high', 'Pa m^3/s', number, bearing, &
+      'of gas out of the end of higher z, or radius', &
+      'the same of the end of higher z, or the outer radius')]
+
   type(result_type), parameter, public :: heats(*) = [ &
     result_type('film_temperature', 'K', number, bearing, 'mean of the gas in the film', &
       'with `&thermal`: mean over the gas in the film', asked=.true.), &
@@ -730,6 +742,6 @@ module gfb_result_table
       'sweeps on several groups: how the groups'' stretches fit together')]
 
   type(result_type), parameter, public :: result_rows(*) = [ &
-    every_study, bearings, feeds, heats, transients, tilts, judgements, strips, vibrations, costs, &
+    every_study, bearings, feeds, groovings, heats, transients, tilts, judgements, strips, vibrations, costs, &
     machines, sweeps, ensembles, origins]
 end module gfb_result_table

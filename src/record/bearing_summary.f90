@@ -10,6 +10,7 @@ module gfb_bearing_summary
   use gfb_text, only: text, engineering_text
   use gfb_bearing_answer, only: bearing_answer_type
   use gfb_feed_answer, only: feed_answer_type
+  use gfb_groove_answer, only: groove_answer_type
   use gfb_heat_answer, only: heat_answer_type, heat_share_type
   use gfb_modulus_law, only: is_usual_modulus, usual_words
   implicit none (type, external)
@@ -75,6 +76,7 @@ contains
     call add_result(list, 'maximum_peclet', answer%maximum_peclet)
     if (allocated(answer%pad_gap)) call add_pads(answer, list)
     if (answer%feed%present) call add_feed(answer%feed, list)
+    if (answer%grooves%present) call add_grooves(answer%grooves, list)
     if (answer%heat%present) call add_heat(answer%heat, .true., list)
     if (answer%has_foils) then
       call add_result(list, 'leading_edge_lift', answer%leading_edge_lift(1))
@@ -131,6 +133,7 @@ contains
       end if
       call add_result(list, 'maximum_peclet', answer%maximum_peclet)
       if (answer%feed%present) call add_feed(answer%feed, list)
+      if (answer%grooves%present) call add_grooves(answer%grooves, list)
       if (answer%heat%present) call add_heat(answer%heat, .false., list)
       call add_result(list, 'pads_solved', ring%pads_solved)
     end associate
@@ -208,6 +211,16 @@ contains
       call add_result(list, 'mouth_pressure_'//text(i), feed%pressure(i))
     end do
   end subroutine add_feed
+
+  !> Adds what grooves do to the film.
+  subroutine add_grooves(grooves, list)
+    type(groove_answer_type), intent(in) :: grooves
+    type(quantity_type), allocatable, intent(inout) :: list(:)
+
+    call add_result(list, 'pumped_pressure', grooves%pumped)
+    call add_result(list, 'flow_low', grooves%flow(1))
+    call add_result(list, 'flow_high', grooves%flow(2))
+  end subroutine add_grooves
 
   !> Adds temperatures, and where the heat goes.
   subroutine add_heat(heat, grows, list)
@@ -353,6 +366,7 @@ contains
                   '   friction torque '// &
                   engineering_text(answer%friction_torque, 'mN m', 1.0e3_wp))
     if (answer%feed%present) call show_feed(log, answer%feed)
+    if (answer%grooves%present) call show_grooves(log, answer%grooves)
     if (answer%heat%present) call show_heat(log, answer%heat, .not. answer%ring%present)
     call log%line('pressure         '// &
                   engineering_text(answer%minimum_pressure, 'to', 1.0e-3_wp)//' '// &
@@ -417,6 +431,15 @@ contains
     end if
     call log%line(words)
   end subroutine show_feed
+
+  !> The line of a film with grooves in the log.
+  subroutine show_grooves(log, grooves)
+    type(run_log_type), intent(in) :: log
+    type(groove_answer_type), intent(in) :: grooves
+
+    call log%line('grooves          pumped up by '//engineering_text(grooves%pumped, 'kPa', 1.0e-3_wp)// &
+                  '; out of the ends '//text(grooves%flow(1), 3)//', '//text(grooves%flow(2), 3)//' Pa m3/s')
+  end subroutine show_grooves
 
   !> Where the runner is, and what the foils do.
   subroutine show_runner(log, answer)

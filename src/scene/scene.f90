@@ -17,6 +17,7 @@ module gfb_scene
                               read_periodic_case, read_rotor_case, read_unbalance_case, &
                               read_transient_case
   use gfb_feed_case, only: feed_case_type, read_feed_case
+  use gfb_groove_case, only: groove_case_type, read_groove_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
   use gfb_foil_row, only: foil_row_type, foil_unknown
@@ -48,6 +49,7 @@ module gfb_scene
     type(bore_case_type) :: bore
     type(gas_case_type) :: gas
     type(feed_case_type) :: feed
+    type(groove_case_type) :: grooves
     type(thermal_case_type) :: thermal
     type(operation_case_type) :: operation
     type(sweep_case_type) :: sweep
@@ -107,6 +109,7 @@ contains
       call read_bore_case(keys, scene%bore, scene%bearing, analysis%refusal('bore'))
       call read_gas_case(keys, scene%gas, analysis)
       call read_feed_case(keys, scene%feed, scene%gas, scene%bearing, analysis)
+      call read_groove_case(keys, scene%grooves, scene%bearing, analysis)
       call read_shaft_contact_case(keys, scene%shaft_contact, analysis)
       call read_operation_case(keys, scene%operation, scene%bearing, state, &
                                scene%shaft_contact%present .or. scene%feed%present)

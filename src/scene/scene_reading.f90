@@ -449,6 +449,7 @@ contains
     there%capacity = changed%capacity
     there%gas = changed%gas
     there%feed = changed%feed
+    there%grooves = changed%grooves
     there%thermal = changed%thermal
     there%operation = changed%operation
     there%top_foil = changed%top_foil

@@ -11,6 +11,7 @@ module gfb_scene_rules
   use gfb_count_rules, only: check_counts
   use gfb_sample_rules, only: check_sample
   use gfb_feed_rules, only: check_feed
+  use gfb_groove_rules, only: check_grooves
   use gfb_foil_rules, only: check_foils
   use gfb_shape_rules, only: check_shape
   use gfb_model_case, only: needs_meshes, half_width_yes, reduction_guyan, coupling_partitioned
@@ -64,6 +65,7 @@ contains
     call check_counts(keys, scene)
     call check_heat(keys, scene)
     call check_feed(keys, scene)
+    call check_grooves(keys, scene)
   end subroutine check_groups
 
   !> What heat asks of the scene; first what it cannot have beside it yet.
@@ -319,7 +321,7 @@ contains
     type(scene_type), intent(in) :: scene !! what the case file asks for
     symmetric = .not. (scene%bearing%row%ends_differ .or. &
                        tilts(scene%operation, scene%sweep)) .and. heat_mirrors(scene) .and. &
-                scene%feed%mirrors()
+                scene%feed%mirrors() .and. scene%grooves%mirrors()
   end function is_symmetric
 
   !> Whether heat leaves both halves of the width alike, at every point of the scene.

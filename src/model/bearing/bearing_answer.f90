@@ -15,6 +15,7 @@ module gfb_bearing_answer
   use gfb_largest_stress, only: surfaces, stress_place_type, find_largest_stress
   use gfb_bearing, only: bearing_type
   use gfb_feed_answer, only: feed_answer_type, feed_answer
+  use gfb_groove_answer, only: groove_answer_type, groove_answer
   use gfb_heat_numbers, only: read_heat
   implicit none (type, external)
   private
@@ -68,6 +69,7 @@ module gfb_bearing_answer
     type(contact_measures_type) :: contact         !! of the foil, what judges their laws' numbers
     type(heat_answer_type) :: heat                 !! where the film carries heat
     type(feed_answer_type) :: feed                 !! of a film that is fed
+    type(groove_answer_type) :: grooves            !! of a film with grooves
     type(ring_answer_type) :: ring
     logical :: moves_along = .false. !! of a cone: the axial position counts beside the eccentricity
     !> (5, pads) share of each of several pads [N], [N m]
@@ -145,6 +147,9 @@ contains
     answer%power_loss = answer%friction_torque*bearing%point%speed
     if (allocated(bearing%feed)) then
       answer%feed = feed_answer(bearing, bearing%position(unknown), unknown, gap)
+    end if
+    if (bearing%pad(1)%film%has_grooves()) then
+      answer%grooves = groove_answer(bearing, bearing%position(unknown), unknown, gap)
     end if
     answer%minimum_gap = -largest(1)
     if (whole) answer%thinnest = place_of_gap(bearing, gap, answer%minimum_gap)

@@ -32,7 +32,8 @@ module gfb_bearing_builder
   use gfb_heat_switch, only: follow_frozen
   use gfb_changed_foil, only: take_foil_numbers
   use gfb_feed_builder, only: find_feed, take_feed_numbers
-  use gfb_feed_mesh, only: refine_at_holes
+  use gfb_film_refinement, only: refine_at_holes, meet_bands
+  use gfb_groove_film, only: groove_type
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
@@ -359,11 +360,29 @@ contains
           call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, pad%foil%rate, pad%film)
         end if
         call pad%film%put(gap_part_type(name='interference', level=scene%bearing%interference))
+        if (scene%grooves%present) call put_grooves(scene, pad%film)
         pad%film%law = scene%gas%law
         pad%contact = scene%shaft_contact
       end associate
     end do
   end subroutine take_film_numbers
+
+  !> Grooves of a film's elements, each of which lies in one band or between two.
+  subroutine put_grooves(scene, film)
+    type(scene_type), intent(in) :: scene
+    type(gas_film_type), intent(inout) :: film !! this rank's
+    type(gap_part_type) :: part
+    integer :: element
+
+    part%name = 'grooves'
+    allocate (part%groove(size(film%element_nodes, 2)))
+    do element = 1, size(part%groove)
+      associate (along => film%axial(film%element_nodes(:, element)))
+        part%groove(element) = scene%grooves%groove_at(0.5_wp*(minval(along) + maxval(along)))
+      end associate
+    end do
+    call film%put(part)
+  end subroutine put_grooves
 
   !> Gives a bearing, whose foils can take them, the numbers of a scene that do not move its meshes: of film, gas, bore,
   !> asperities and contacts. What is assembled of the foils stays.
@@ -498,6 +517,7 @@ contains
         end if
       end if
       if (scene%model%foil%has_crest_springs) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
+      call meet_bands(scene, mesh)
       call refine_at_holes(scene, kept_sides(), mesh)
     end associate
     mesh%planned = [plan%circumferential, plan%axial]

@@ -4,6 +4,7 @@ module gfb_film_measures
   use gfb_film_surface, only: translations
   use gfb_film_load, only: film_forces, film_force, film_friction, film_friction_rates
   use gfb_general_film, only: general_friction, general_friction_rates, general_peclet
+  use gfb_groove_film, only: groove_type, groove_friction, groove_friction_rates
   use gfb_film_flow, only: film_flow_type, flow_here
   use gfb_operating_point, only: operating_point_type
   use gfb_gas_film, only: gas_film_type
@@ -61,8 +62,13 @@ contains
     integer, intent(in) :: element
     real(wp), intent(in) :: pressure(:), gap(:) !! at its nodes [Pa], [m]
     real(wp), intent(in) :: excess(:)           !! of the gap at its points, the first ones [m]
+    type(groove_type) :: groove
 
-    if (film%law%plain) then
+    groove = film%groove_of(element)
+    if (groove%share > 0.0_wp) then
+      drag = groove_friction(film%geometry(element), flow, film%law, groove, pressure, gap, &
+                             excess(:size(gap)))
+    else if (film%law%plain) then
       drag = film_friction(film%geometry(element), flow, pressure, gap, excess(:size(gap)))
     else
       drag = general_friction(film%geometry(element), flow, film%law, pressure, gap, &
@@ -80,6 +86,7 @@ contains
     real(wp), intent(out) :: by_gap(:)      !! [N/m]
     real(wp), dimension(size(film%element_nodes, 1)) :: h, excess, of_pressure, of_gap
     type(film_flow_type) :: flow
+    type(groove_type) :: groove
     integer :: element
 
     by_pressure = 0.0_wp
@@ -90,7 +97,11 @@ contains
         h = film%element_gap(element, pressure, gap)
         associate (p => pressure(nodes), every => film%excess(element, point))
           excess = every(:size(excess))
-          if (film%law%plain) then
+          groove = film%groove_of(element)
+          if (groove%share > 0.0_wp) then
+            call groove_friction_rates(geometry, flow, film%law, groove, p, h, excess, &
+                                       of_pressure, of_gap)
+          else if (film%law%plain) then
             call film_friction_rates(geometry, flow, p, h, excess, of_pressure, of_gap)
           else
             call general_friction_rates(geometry, flow, film%law, p, h, excess, of_pressure, &

@@ -117,7 +117,7 @@ contains
     associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element))
       p = pressure(nodes)
       h = film%element_gap(element, pressure, gap)
-      excess = reshape(film%excess(element, point), [size(h)])
+      excess = reshape(film%content_excess(element, point), [size(h)])
       call squeeze_jacobian(geometry, film%law, &
                             squeeze_weights(geometry, film%flow_at(point), film%law, p, h, excess, film%factors_of(element)), &
                             p, h, excess, by_pressure, by_gap, by_excess, film%factors_of(element))

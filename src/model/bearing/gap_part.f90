@@ -6,9 +6,11 @@
 !>    \frac{\partial h}{\partial q} = b, \quad \frac{dh}{dt} = -2 \Omega \dot\Omega \sum_p g_p $$
 !>
 !> with the foil's deflection \( h_f \) and the motions b of the film's surface. Inside an element,
-!> springs of its own add \( (c_p - c) (p - p_a) \) to the deflection of its nodes.
+!> springs of its own add \( (c_p - c) (p - p_a) \) to the deflection of its nodes. Narrow grooves take
+!> nothing off: h is the gap of their ridges, and `gfb_groove_film` has what they do to the film.
 module gfb_gap_part
   use gfb_kinds, only: wp
+  use gfb_groove_film, only: groove_type
   implicit none (type, external)
   private
   public :: put_part, level_of, shift_of
@@ -22,6 +24,7 @@ module gfb_gap_part
     real(wp), allocatable :: height(:)      !! off the gap at the nodes [m]
     real(wp), allocatable :: excess(:, :)   !! (points, elements) of it over the nodes' [m]
     real(wp), allocatable :: softness(:, :) !! (nodes, elements) compliance over the nodes' [m/Pa]
+    type(groove_type), allocatable :: groove(:) !! of the elements: the gap is that of their ridges
   end type gap_part_type
 
 contains

@@ -11,6 +11,7 @@ module gfb_gas_film
   use gfb_film_load, only: film_forces, film_force_weights
   use gfb_gas_law, only: gas_law_type, gas_factors_type
   use gfb_general_film, only: general_residual, general_jacobian
+  use gfb_groove_film, only: groove_type, groove_residual, groove_jacobian, mean_depth
   use gfb_squeeze_term, only: stored_gas, storage_residual, storage_jacobian
   use gfb_film_flow, only: film_flow_type
   use gfb_feed_law, only: porous_wall_type, supply_at
@@ -70,7 +71,7 @@ module gfb_gas_film
   contains
     procedure, non_overridable :: put, put_shape, interference
     procedure, non_overridable :: flow_at, wall_at, cell_flow, shadow, factors_of, element_gap
-    procedure, non_overridable :: softness_of
+    procedure, non_overridable :: softness_of, has_grooves, groove_of, content_excess
     procedure, non_overridable :: gap => film_node_gap
     procedure, non_overridable :: excess => film_excess
     procedure, non_overridable :: is_open
@@ -276,6 +277,38 @@ contains
       softness = softness + self%part(i)%softness(:, element)
     end do
   end function softness_of
+
+  !> Whether one of its parts has grooves.
+  pure logical function has_grooves(self) result(has)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    integer :: i
+
+    has = .false.
+    do i = 1, size(self%part)
+      has = has .or. allocated(self%part(i)%groove)
+    end do
+  end function has_grooves
+
+  !> Grooves of an element; without a share where there are none.
+  pure type(groove_type) function groove_of(self, element) result(groove)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    integer, intent(in) :: element !! of this rank
+    integer :: i
+
+    groove = groove_type()
+    do i = 1, size(self%part)
+      if (allocated(self%part(i)%groove)) groove = self%part(i)%groove(element)
+    end do
+  end function groove_of
+
+  !> The excess with the mean depth of grooves: that of the room for the gas [m].
+  pure function content_excess(self, element, point) result(excess)
+    class(gas_film_type), intent(in) :: self !! this rank's film
+    integer, intent(in) :: element !! of this rank
+    type(operating_point_type), intent(in) :: point !! operating point
+    real(wp) :: excess(most_film_nodes) !! the first ones are its points'
+    excess = self%excess(element, point) + mean_depth(self%groove_of(element))
+  end function content_excess
 
   !> Gap at an element's nodes, as it is inside it [m].
   pure function element_gap(self, element, pressure, gap) result(inside)
@@ -513,6 +546,7 @@ contains
     real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
     real(wp), dimension(most_film_nodes) :: p, h, excess, share
     type(film_flow_type) :: flow
+    type(groove_type) :: groove
     integer :: element, n
 
     n = size(self%shape, 1)
@@ -522,8 +556,12 @@ contains
         p(:n) = pressure(nodes)
         h(:n) = self%element_gap(element, pressure, gap)
         excess = self%excess(element, point)
+        groove = self%groove_of(element)
         if (allocated(self%frozen) .and. flow%upwind) then
           share(:n) = frozen_residual(self, flow, element, p(:n), h(:n), excess(:n))
+        else if (groove%share > 0.0_wp) then
+          call groove_residual(geometry, flow, self%law, groove, p(:n), h(:n), excess(:n), &
+                               share(:n))
         else if (self%law%plain) then
           call reynolds_residual(geometry, flow, p(:n), h(:n), excess(:n), no_source(:n), share(:n))
         else
@@ -536,6 +574,7 @@ contains
                                                 self%factors_of(element))
         end if
         if (allocated(self%past)) then
+          excess = self%content_excess(element, point)
           share(:n) = share(:n) + storage_residual(geometry, flow, self%law, p(:n), h(:n), &
                                                    excess(:n), self%storage, &
                                                    self%past(:, element), self%factors_of(element))
@@ -561,6 +600,7 @@ contains
     real(wp), parameter :: no_source(most_film_nodes) = 0.0_wp
     real(wp), dimension(most_film_nodes) :: p, h, excess
     real(wp) :: by_excess(size(self%shape, 1), size(self%shape, 2))
+    type(groove_type) :: groove
     integer :: n, i, k
 
     n = size(self%shape, 1)
@@ -568,9 +608,13 @@ contains
       p(:n) = pressure(nodes)
       h(:n) = self%element_gap(element, pressure, gap)
       excess = self%excess(element, point)
+      groove = self%groove_of(element)
       if (allocated(self%frozen) .and. self%flow%upwind) then
         call frozen_jacobian(self, self%flow_at(point), element, p(:n), h(:n), excess(:n), &
                              by_pressure, by_gap, by_excess)
+      else if (groove%share > 0.0_wp) then
+        call groove_jacobian(self%geometry(element), self%flow_at(point), self%law, groove, p(:n), &
+                             h(:n), excess(:n), by_pressure, by_gap, by_excess)
       else if (self%law%plain) then
         call reynolds_jacobian(self%geometry(element), self%flow_at(point), p(:n), h(:n), &
                                excess(:n), no_source(:n), by_pressure, by_gap, by_excess)
@@ -585,6 +629,7 @@ contains
                            by_excess, self%factors_of(element))
       end if
       if (allocated(self%past)) then
+        excess = self%content_excess(element, point)
         call storage_jacobian(self%geometry(element), self%flow_at(point), self%law, p(:n), h(:n), &
                               excess(:n), self%storage, self%past(:, element), by_pressure, &
                               by_gap, by_excess, self%factors_of(element))
@@ -634,7 +679,7 @@ contains
 
     do element = 1, size(self%element_nodes, 2)
       associate (nodes => self%element_nodes(:, element))
-        excess = self%excess(element, point)
+        excess = self%content_excess(element, point)
         stored(:, element) = stored_gas(self%law, pressure(nodes), &
                                         self%element_gap(element, pressure, gap), &
                                         excess(:size(self%shape, 2)), self%factors_of(element))

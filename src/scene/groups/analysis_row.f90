@@ -9,7 +9,7 @@ module gfb_analysis_row
   integer, parameter, public :: limit_speed = 2 !! the one that lifts the asperities off
   integer, parameter, public :: limit_tilt = 3  !! the largest that leaves the film
 
-  character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed thermal '// &
+  character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed grooves thermal '// &
     'shaft_contact operation sweep contact accuracy sample capacity'
   character(len=*), parameter :: offered_often = ' pads bore thermal shaft_contact sweep'
 
@@ -47,7 +47,7 @@ module gfb_analysis_row
     logical :: is_machine = .false.  !! of a shaft in several bearings, each a case of its own
     integer :: limit = 0             !! `limit_load`, ...: of what a limit is looked for; 0: none is
     character(len=22) :: limit_result = '' !! its name among the results
-    character(len=160) :: groups = ''   !! of the case file, where others have no use for them
+    character(len=200) :: groups = ''   !! of the case file, where others have no use for them
   contains
     procedure, non_overridable :: is_known, is_structure, takes, refusal
   end type analysis_row_type

@@ -106,11 +106,14 @@ contains
     call keys%choice_key('film_scheme', model%film_scheme, scheme_words, &
                          'upwinding of the film elements')
     model%film_order = bearing%film_order
-    if (keys%line_of_group('feed') > 0) model%film_order = film_order_biquadratic
+    if (max(keys%line_of_group('feed'), keys%line_of_group('grooves')) > 0) then
+      model%film_order = film_order_biquadratic
+    end if
     call keys%integer_key('film_order', model%film_order, '1: bilinear film elements; 2: '// &
                           'biquadratic ones, with twice as many node intervals each way as '// &
                           'elements (film and foils share the nodes)', from_to(1.0_wp, 2.0_wp), &
-                          default='2 for thrust bearings and with &feed, otherwise 1', &
+                          default='2 for thrust bearings and with &feed or &grooves, '// &
+                          'otherwise 1', &
                           useless=unless(.not. analysis%is_structure(), &
                                          'needs a film: strips and modes have none'))
     call keys%rule('model', 'film_order', model%film_order == film_order_biquadratic .and. &

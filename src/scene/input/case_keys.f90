@@ -27,7 +27,8 @@ module gfb_case_keys
   contains
     procedure, non_overridable :: real_key, real_vector_key, real_list_key
     procedure, non_overridable :: integer_key, logical_key, string_key
-    procedure, non_overridable :: choice_key, choice_or_keys_key, words_key, names_key, strings_key
+    procedure, non_overridable :: choice_key, choice_or_keys_key, words_key, word_list_key
+    procedure, non_overridable :: names_key, strings_key
     procedure, non_overridable, private :: take_numbers, has_no_use
   end type case_keys_type
 
@@ -319,6 +320,32 @@ contains
     end do
     call self%end_key(chosen_words(words, chosen), any(chosen), all(chosen .eqv. before))
   end subroutine words_key
+
+  !> A list of words, each as its number in a list of them; none where one is wrong.
+  subroutine word_list_key(self, name, values, words, most, meaning, required)
+    class(case_keys_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: name !! of the key
+    integer, allocatable, intent(out) :: values(:) !! numbers of the words, as many as given
+    character(len=*), intent(in) :: words(:) !! blank-padded
+    integer, intent(in) :: most !! values at most
+    character(len=*), intent(in) :: meaning !! of the key, a sentence
+    logical, intent(in) :: required !! where its group is there
+    character(len=:), allocatable :: shown
+    integer, allocatable :: elements(:)
+    integer :: i
+
+    call self%describe(name, 'list of `'//choices(words)//'`', '', meaning)
+    call self%begin_key('', most, elements, required)
+    allocate (values(size(elements)), source=0)
+    shown = ''
+    do i = 1, size(elements)
+      call self%take_choice(elements(i), i, words, values(i))
+      if (i > 1) shown = shown//', '
+      shown = shown//chosen_word(words, values(i))
+    end do
+    if (any(values == 0)) values = [integer ::]
+    call self%end_key(shown, size(values) > 0, .false.)
+  end subroutine word_list_key
 
   !> Names of real keys of the case file, which may stand in one string or in several.
   subroutine names_key(self, name, names, strings, meaning, required, default)

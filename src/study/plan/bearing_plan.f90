@@ -344,6 +344,8 @@ contains
         call log%line('width: whole, because heat leaves one end otherwise than the other')
       else if (.not. scene%feed%mirrors()) then
         call log%line('width: whole, because the rows of orifices do not mirror each other')
+      else if (.not. scene%grooves%mirrors()) then
+        call log%line('width: whole, because the bands of grooves do not mirror each other')
       else if (plan%half) then
         call log%line('width: half, with symmetry at z = 0, because nothing tilts')
       else if (symmetric) then
@@ -366,6 +368,10 @@ contains
     plan%peclet = concentric_peclet(scene, plan)
     if (plan%order == film_order_biquadratic) then
       call log%line('film: Galerkin, because upwinding is for bilinear elements')
+      return
+    end if
+    if (scene%grooves%present) then
+      call log%line('film: Galerkin, because upwinding is for smooth surfaces')
       return
     end if
     plan%upwind = scene%model%film_scheme == film_scheme_supg

@@ -1,0 +1,275 @@
+!> Element of a film one of whose surfaces has narrow grooves: their limit of infinitely many.
+!>
+!> A cell of the pattern has a ridge, gap h, and a groove, gap h + d, of the share g. The pressure is even in it, and so are the
+!> flow across the lines of the pattern, along n, and the slope along them, along t:
+!>
+!> $$ \langle f \rangle = (1 - g) f(h) + g f(h + d), \quad K_n = 1/\langle 1/G \rangle, \quad K_t = \langle G \rangle,
+!>    \quad H_n = \langle h/G \rangle/\langle 1/G \rangle, \quad H_t = \langle h \rangle $$
+!>
+!> with \( G = h^3 (1 + 6 \lambda/h) \). In gfb's frame the flow of the gas is \( q/r = -K \nabla p/(12 \mu) + U S \) with the density r
+!> of `gfb_gas_law`, half the shaft's speed U along x, and the shear vector \( S = H e_x \) where the grooves stand still,
+!> \( S = (2 \langle h \rangle I - H) e_x \) where they turn with the shaft. Grooves on the shaft add nothing that changes in time: the
+!> pressure is steady in this frame.
+!>
+!> Source: [VohrChow1965], derived anew with the frame of the grooves, where \( w = \pm U e_x \).
+module gfb_groove_film
+  use gfb_kinds, only: wp
+  use gfb_film_geometry, only: film_geometry_type, film_shapes
+  use gfb_film_flow, only: film_flow_type, flow_here
+  use gfb_gas_law, only: gas_law_type, gas_state_type, gas_state
+  implicit none (type, external)
+  private
+  public :: groove_residual, groove_jacobian, groove_friction, groove_friction_rates, mean_depth
+
+  !> The grooves of an element. Without a share there are none.
+  type, public :: groove_type
+    real(wp) :: share = 0.0_wp      !! g, of the groove in the pattern [1]
+    real(wp) :: depth = 0.0_wp      !! d [m]
+    real(wp) :: along(2) = [1.0_wp, 0.0_wp] !! t, along the lines (x, z) [1]
+    logical :: turns = .false.      !! they are on the shaft
+  end type groove_type
+
+  ! A number that follows pressure and gap is a list: itself, its derivative by p, its derivative by h.
+  integer, parameter :: value = 1, by_p = 2, by_h = 3
+
+  !> What a pattern makes of the film at a point.
+  type :: pattern_type
+    real(wp) :: mobility(3, 3) = 0.0_wp !! (list, xx xz zz) of r K/(12 mu) [Pa m3/(Pa s)]
+    real(wp) :: shear(3, 2) = 0.0_wp    !! (list, x z) of S [m]
+    real(wp) :: gas(3) = 0.0_wp         !! r [Pa]
+    real(wp) :: drag(3) = 0.0_wp        !! of what the shaft's motion alone brakes with, over 2 U [Pa s/m]
+  end type pattern_type
+
+contains
+
+  !> Mean depth of the grooves: what they hold beyond the gap of the ridges [m].
+  elemental real(wp) function mean_depth(groove) result(depth)
+    type(groove_type), intent(in) :: groove !! of an element
+    depth = groove%share*groove%depth
+  end function mean_depth
+
+  !> Residual of the film's equation on one element.
+  !>
+  !> $$ r_a = \int_{\Omega^e} \nabla N_a \cdot \Bigl( \frac{r}{12 \mu} K \nabla p - r U S \Bigr) d\Omega $$
+  pure subroutine groove_residual(geometry, flow, law, groove, pressure, gap, excess, residual)
+    type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(film_flow_type), intent(in) :: flow !! speed of the film
+    type(gas_law_type), intent(in) :: law    !! of the gas
+    type(groove_type), intent(in) :: groove  !! of the element
+    real(wp), intent(in) :: pressure(:)  !! absolute pressure at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)       !! of the ridges at the nodes [m]
+    real(wp), intent(in) :: excess(:)    !! of the gap at the points over the nodes' [m]
+    real(wp), intent(out) :: residual(:) !! one a node [Pa m3/s]
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux(2), speed
+    type(pattern_type) :: here
+    integer :: i
+
+    shapes = film_shapes(size(gap))
+    residual = 0.0_wp
+    do i = 1, size(gap)
+      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i))
+        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+        speed = geometry%stretch(i)*flow%entraining_speed
+        ! Less one node's pressure: an even pressure has no gradient to the last digit.
+        slope = matmul(gradient, pressure - pressure(1))
+        flux = flux_of(here%mobility(value, :), slope) - speed*here%gas(value)*here%shear(value, :)
+        residual = residual + geometry%area(i)*(flux(1)*gradient(1, :) + flux(2)*gradient(2, :))
+      end associate
+    end do
+  end subroutine groove_residual
+
+  !> Exact derivatives of `groove_residual` by the nodal pressures and gaps, and by the excess.
+  pure subroutine groove_jacobian(geometry, flow, law, groove, pressure, gap, excess, by_pressure, by_gap, by_excess)
+    type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(film_flow_type), intent(in) :: flow !! speed of the film
+    type(gas_law_type), intent(in) :: law    !! of the gas
+    type(groove_type), intent(in) :: groove  !! of the element
+    real(wp), intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! of the ridges at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp), intent(out) :: by_pressure(:, :) !! (nodes, nodes) dr_a/dp_b [m3/s]
+    real(wp), intent(out) :: by_gap(:, :)      !! (nodes, nodes) dr_a/dh_b [Pa m2/s]
+    real(wp), intent(out) :: by_excess(:, :)   !! (nodes, points) [Pa m2/s]
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux_p(2), flux_h(2), speed, moved(size(gap), 2)
+    type(pattern_type) :: here
+    integer :: i, b
+
+    shapes = film_shapes(size(gap))
+    by_pressure = 0.0_wp
+    by_gap = 0.0_wp
+    do i = 1, size(gap)
+      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), area => geometry%area(i))
+        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+        speed = geometry%stretch(i)*flow%entraining_speed
+        slope = matmul(gradient, pressure - pressure(1))
+        flux_p = flux_of(here%mobility(by_p, :), slope) &
+          - speed*(here%gas(by_p)*here%shear(value, :) + here%gas(value)*here%shear(by_p, :))
+        flux_h = flux_of(here%mobility(by_h, :), slope) - speed*here%gas(value)*here%shear(by_h, :)
+        associate (k => here%mobility(value, :))
+          moved(:, 1) = area*(k(1)*gradient(1, :) + k(2)*gradient(2, :))
+          moved(:, 2) = area*(k(2)*gradient(1, :) + k(3)*gradient(2, :))
+        end associate
+        by_excess(:, i) = area*(flux_h(1)*gradient(1, :) + flux_h(2)*gradient(2, :))
+        do b = 1, size(gap)
+          by_pressure(:, b) = by_pressure(:, b) + gradient(1, b)*moved(:, 1) + gradient(2, b)*moved(:, 2) &
+            + area*shape(b)*(flux_p(1)*gradient(1, :) + flux_p(2)*gradient(2, :))
+          by_gap(:, b) = by_gap(:, b) + shape(b)*by_excess(:, i)
+        end do
+      end associate
+    end do
+  end subroutine groove_jacobian
+
+  !> Drag of the film on the shaft.
+  !>
+  !> $$ D = \int \Bigl( 2 \mu U \Bigl\langle \frac{1}{h + 2 \lambda} \Bigr\rangle + \frac{1}{2} S \cdot \nabla p
+  !>      + 6 \mu U n_x^2 \Bigl( \langle h^2/G \rangle - H_n \langle h/G \rangle \Bigr) \Bigr) \frac{r}{R} \, d\Omega $$
+  !>
+  !> It is the shear on the shaft and, where the grooves are on it, the pressure on their walls. The last term is the slope of the
+  !> pressure from ridge to groove and back.
+  pure real(wp) function groove_friction(geometry, flow, law, groove, pressure, gap, excess) result(drag)
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    type(film_flow_type), intent(in) :: flow !! speed of the film
+    type(gas_law_type), intent(in) :: law    !! of the gas
+    type(groove_type), intent(in) :: groove  !! of the element
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! of the ridges at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), speed
+    type(pattern_type) :: here
+    integer :: i
+
+    shapes = film_shapes(size(gap))
+    drag = 0.0_wp
+    do i = 1, size(gap)
+      here = pattern_at(law, groove, dot_product(shapes(:, i), pressure), dot_product(shapes(:, i), gap) + excess(i))
+      speed = geometry%stretch(i)*flow%entraining_speed
+      slope = matmul(geometry%gradient(:, :, i), pressure - pressure(1))
+      drag = drag + geometry%area(i)*geometry%stretch(i)* &
+             (2.0_wp*speed*here%drag(value) + 0.5_wp*dot_product(here%shear(value, :), slope))
+    end do
+  end function groove_friction
+
+  !> Derivatives of that drag.
+  pure subroutine groove_friction_rates(geometry, flow, law, groove, pressure, gap, excess, by_pressure, by_gap)
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    type(film_flow_type), intent(in) :: flow !! speed of the film
+    type(gas_law_type), intent(in) :: law    !! of the gas
+    type(groove_type), intent(in) :: groove  !! of the element
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! of the ridges at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp), intent(out) :: by_pressure(:), by_gap(:) !! one a node [N/Pa], [N/m]
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), speed
+    type(pattern_type) :: here
+    integer :: i
+
+    shapes = film_shapes(size(gap))
+    by_pressure = 0.0_wp
+    by_gap = 0.0_wp
+    do i = 1, size(gap)
+      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), area => geometry%area(i)*geometry%stretch(i))
+        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+        speed = geometry%stretch(i)*flow%entraining_speed
+        slope = matmul(gradient, pressure - pressure(1))
+        by_pressure = by_pressure + area*(0.5_wp*matmul(here%shear(value, :), gradient) &
+          + (2.0_wp*speed*here%drag(by_p) + 0.5_wp*dot_product(here%shear(by_p, :), slope))*shape)
+        by_gap = by_gap + area*(2.0_wp*speed*here%drag(by_h) + 0.5_wp*dot_product(here%shear(by_h, :), slope))*shape
+      end associate
+    end do
+  end subroutine groove_friction_rates
+
+  !> A symmetric tensor (xx, xz, zz) times a slope.
+  pure function flux_of(tensor, slope) result(flux)
+    real(wp), intent(in) :: tensor(3), slope(2)
+    real(wp) :: flux(2)
+    flux = [tensor(1)*slope(1) + tensor(2)*slope(2), tensor(2)*slope(1) + tensor(3)*slope(2)]
+  end function flux_of
+
+  !> What the pattern makes of the film at a pressure and a gap of its ridges.
+  pure type(pattern_type) function pattern_at(law, groove, pressure, gap) result(here)
+    type(gas_law_type), intent(in) :: law
+    type(groove_type), intent(in) :: groove
+    real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
+    type(gas_state_type) :: gas
+    real(wp), dimension(3) :: fluid, viscosity, open, h, over_open, entrained
+    real(wp), dimension(3) :: resistance, conductance, lag, dragged, squared, across, height, couette
+    real(wp) :: share(2), sine, cosine
+    integer :: i
+
+    gas = gas_state(law, pressure)
+    viscosity = [gas%mu, gas%mu_p, 0.0_wp]
+    here%gas = [gas%r, gas%r_p, 0.0_wp]
+    fluid = over(here%gas, 12.0_wp*viscosity)
+    share = [1.0_wp - groove%share, groove%share]
+    resistance = 0.0_wp
+    conductance = 0.0_wp
+    dragged = 0.0_wp
+    squared = 0.0_wp
+    height = 0.0_wp
+    couette = 0.0_wp
+    do i = 1, 2
+      h = [gap + merge(groove%depth, 0.0_wp, i == 2), 0.0_wp, 1.0_wp]
+      open = conductance_of(law, pressure, h(value))
+      over_open = over([1.0_wp, 0.0_wp, 0.0_wp], open)
+      entrained = times(h, over_open)
+      resistance = resistance + share(i)*over_open
+      conductance = conductance + share(i)*open
+      dragged = dragged + share(i)*entrained
+      squared = squared + share(i)*times(h, entrained)
+      height = height + share(i)*h
+      couette = couette + share(i)*over([1.0_wp, 0.0_wp, 0.0_wp], slipping(law, pressure, h(value)))
+    end do
+    across = over([1.0_wp, 0.0_wp, 0.0_wp], resistance)
+    lag = over(dragged, resistance)
+    cosine = groove%along(1)
+    sine = groove%along(2)
+    here%mobility(:, 1) = times(fluid, across*sine**2 + conductance*cosine**2)
+    here%mobility(:, 2) = times(fluid, conductance - across)*sine*cosine
+    here%mobility(:, 3) = times(fluid, across*cosine**2 + conductance*sine**2)
+    here%shear(:, 1) = lag*sine**2 + height*cosine**2
+    here%shear(:, 2) = (height - lag)*sine*cosine
+    if (groove%turns) then
+      here%shear = -here%shear
+      here%shear(:, 1) = here%shear(:, 1) + 2.0_wp*height
+    end if
+    here%drag = times(viscosity, couette + 3.0_wp*sine**2*(squared - times(lag, dragged)))
+  end function pattern_at
+
+  !> G, what is open to a flow of pressure [m3].
+  pure function conductance_of(law, pressure, gap) result(open)
+    type(gas_law_type), intent(in) :: law
+    real(wp), intent(in) :: pressure, gap
+    real(wp) :: open(3), slip
+
+    slip = 6.0_wp*law%mean_free_path*law%ambient_pressure
+    open = [gap**3 + slip*gap**2/pressure, -slip*(gap/pressure)**2, 3.0_wp*gap**2 + 2.0_wp*slip*gap/pressure]
+  end function conductance_of
+
+  !> The gap, as wide as it is to a flow of shear [m].
+  pure function slipping(law, pressure, gap) result(wide)
+    type(gas_law_type), intent(in) :: law
+    real(wp), intent(in) :: pressure, gap
+    real(wp) :: wide(3), slip
+
+    slip = 2.0_wp*law%mean_free_path*law%ambient_pressure/pressure
+    wide = [gap + slip, -slip/pressure, 1.0_wp]
+  end function slipping
+
+  !> Product of two numbers that follow pressure and gap.
+  pure function times(first, second) result(product)
+    real(wp), intent(in) :: first(3), second(3)
+    real(wp) :: product(3)
+
+    product(value) = first(value)*second(value)
+    product(by_p:) = first(by_p:)*second(value) + first(value)*second(by_p:)
+  end function times
+
+  !> Their quotient.
+  pure function over(first, second) result(quotient)
+    real(wp), intent(in) :: first(3), second(3)
+    real(wp) :: quotient(3)
+
+    quotient(value) = first(value)/second(value)
+    quotient(by_p:) = (first(by_p:) - quotient(value)*second(by_p:))/second(value)
+  end function over
+end module gfb_groove_film

@@ -1,0 +1,194 @@
+!> `&grooves`: narrow grooves on the shaft or the sleeve, in bands of the width.
+module gfb_groove_case
+  use gfb_kinds, only: wp
+  use gfb_units, only: pi
+  use gfb_analysis_row, only: analysis_row_type
+  use gfb_bearing_case, only: bearing_case_type, pad_rows
+  use gfb_case_keys, only: case_keys_type, longest_list, any_value, between, from_to, &
+                           not_negative, unless
+  use gfb_groove_film, only: groove_type
+  use gfb_key_effect, only: acts_on_film, acts_on_all
+  use gfb_text, only: text
+  implicit none (type, external)
+  private
+  public :: groove_case_type, read_groove_case
+
+  character(len=*), parameter, public :: groove_group = 'grooves'
+
+  integer, parameter, public :: on_shaft = 1, on_sleeve = 2
+  integer, parameter :: pumps_up = 1
+  character(len=*), parameter :: member_words(*) = [character(len=6) :: 'shaft', 'sleeve']
+  character(len=*), parameter :: pumping_words(*) = [character(len=4) :: 'up', 'down']
+  real(wp), parameter :: rounding = 1.0e-9_wp !! of places that are meant to be equal, relative
+  real(wp), parameter :: most_grooves = 1000.0_wp
+
+  !> The grooves. Places are z, or radii of a thrust bearing.
+  type :: groove_case_type
+    logical :: present = .false. !! the group stands in the file
+    integer :: member = 0        !! `on_shaft`, `on_sleeve`; 0: not known
+    real(wp), allocatable :: angle(:) !! between lines and motion, one or one of each band [rad]
+    real(wp) :: depth = 0.0_wp        !! [m]
+    real(wp) :: ridge_part = 0.5_wp   !! of the pattern [1]
+    real(wp), allocatable :: band_begin(:), band_end(:) !! [m]
+    integer, allocatable :: pumping(:)                  !! of each band
+    integer :: count = 0 !! grooves around; 0: their limit
+  contains
+    procedure, non_overridable :: mirrors, groove_at, row_ends
+  end type groove_case_type
+
+contains
+
+  !> Reads the group.
+  subroutine read_groove_case(keys, grooves, bearing, analysis)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(groove_case_type), intent(out) :: grooves !! what `&grooves` asks for
+    type(bearing_case_type), intent(in) :: bearing !! what `&bearing` and `&pads` ask for
+    type(analysis_row_type), intent(in) :: analysis !! of the case file
+
+    call keys%start_group(groove_group, optional=.true., present_in_file=grooves%present, &
+                          misplaced=analysis%refusal(groove_group), acts_on=acts_on_film)
+    call keys%idle(unless(grooves%present, 'the file has no group &grooves'))
+    call keys%choice_key('on', grooves%member, member_words, 'which surface has the grooves: '// &
+                         'that of the shaft or runner, or that of the sleeve, pads or ring', &
+                         required=.true.)
+    call keys%real_list_key('angle', grooves%angle, longest_list, 'rad', 'between the lines of '// &
+                            'the grooves and the motion, one value or one of each band; of '// &
+                            'thrust bearings the lines are logarithmic spirals', &
+                            between(0.0_wp, 0.5_wp*pi), .true., 'required')
+    call keys%real_key('depth', grooves%depth, 'm', 'of the grooves below the ridges, whose gap '// &
+                       'is the clearance', not_negative, .true.)
+    call keys%real_key('ridge_part', grooves%ridge_part, '1', 'width of a ridge over that of '// &
+                       'ridge and groove', between(0.0_wp, 1.0_wp))
+    call keys%real_list_key('band_begin', grooves%band_begin, longest_list, 'm', 'z where each '// &
+                            'band of grooves begins, rising; of thrust bearings its radius; '// &
+                            'between bands the surface is smooth', any_value, .true., 'required')
+    call keys%act_on('band_begin', acts_on_all)
+    call keys%real_list_key('band_end', grooves%band_end, longest_list, 'm', 'where each band '// &
+                            'ends', any_value, .true., 'required')
+    call keys%act_on('band_end', acts_on_all)
+    call keys%word_list_key('pumping', grooves%pumping, pumping_words, longest_list, 'of each '// &
+                            'band: where the motion drives the gas, to larger or to smaller z, '// &
+                            'or radius', .true.)
+    call keys%integer_key('count', grooves%count, 'grooves of a band around the shaft; they '// &
+                          'are taken as infinitely many, and this says what that leaves out', &
+                          from_to(0.0_wp, most_grooves), default='0: not known')
+    if (grooves%present) call check_bands(keys, grooves, bearing)
+  end subroutine read_groove_case
+
+  !> Bands are given alike, lie on the pad and not on each other.
+  subroutine check_bands(keys, grooves, bearing)
+    type(case_keys_type), intent(inout) :: keys
+    type(groove_case_type), intent(in) :: grooves
+    type(bearing_case_type), intent(in) :: bearing
+    real(wp) :: rows(2), slack
+    integer :: i
+
+    associate (first => grooves%band_begin, last => grooves%band_end, bands => size(grooves%band_begin))
+      if (bands == 0) return
+      call check_length('band_end', size(last))
+      call check_length('pumping', size(grooves%pumping))
+      if (size(grooves%angle) > 1) call check_length('angle', size(grooves%angle))
+      if (size(last) /= bands) return
+      rows = pad_rows(bearing)
+      slack = rounding*maxval(abs(rows))
+      do i = 1, bands
+        if (last(i) <= first(i)) then
+          call keys%complain(groove_group, 'band_end', 'must be greater than band_begin, '// &
+                             text(first(i))//' m', i)
+        else if (bearing%length > 0.0_wp .and. (first(i) < rows(1) - slack .or. &
+                                                last(i) > rows(2) + slack)) then
+          call keys%complain(groove_group, merge('band_begin', 'band_end  ', &
+                             first(i) < rows(1) - slack), 'must lie on the pad, between '// &
+                             text(rows(1))//' and '//text(rows(2))//' m', i)
+        end if
+        if (i == 1) cycle
+        if (first(i) >= last(i - 1) - slack) cycle
+        call keys%complain(groove_group, 'band_begin', 'must not lie before the end of the '// &
+                           'band before it, '//text(last(i - 1))//' m', i)
+      end do
+    end associate
+
+  contains
+
+    !> A list has a value of each band.
+    subroutine check_length(key, values)
+      character(len=*), intent(in) :: key
+      integer, intent(in) :: values
+
+      call keys%rule(groove_group, key, values > 0 .and. values /= size(grooves%band_begin), &
+                     'has '//text(values)//' values, must have one of each of '// &
+                     text(size(grooves%band_begin))//' bands')
+    end subroutine check_length
+  end subroutine check_bands
+
+  !> Whether both halves of the width are alike: bands mirror each other, and pump against each
+  !> other.
+  pure logical function mirrors(self)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    integer :: i
+
+    mirrors = .true.
+    if (.not. self%present) return
+    associate (first => self%band_begin, last => self%band_end, n => size(self%band_begin))
+      mirrors = n > 0 .and. size(last) == n .and. size(self%pumping) == n .and. &
+        any(size(self%angle) == [1, n])
+      if (.not. mirrors) return
+      do i = 1, n
+        mirrors = mirrors .and. self%pumping(i) /= self%pumping(n + 1 - i) .and. &
+          abs(first(i) + last(n + 1 - i)) <= rounding*maxval(abs([first, last]))
+        if (size(self%angle) == 1) cycle
+        mirrors = mirrors .and. abs(self%angle(i) - self%angle(n + 1 - i)) <= rounding
+      end do
+    end associate
+  end function mirrors
+
+  !> The grooves at a place across the motion; without a share between bands.
+  !>
+  !> Lines that rise with theta drive gas up on a surface at rest, down on one that moves.
+  pure type(groove_type) function groove_at(self, along) result(groove)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    real(wp), intent(in) :: along !! z, or radius [m]
+    real(wp) :: angle
+    integer :: i
+
+    groove = groove_type()
+    if (.not. self%present) return
+    do i = 1, size(self%band_begin)
+      if (along < self%band_begin(i) .or. along > self%band_end(i)) cycle
+      angle = self%angle(min(i, size(self%angle)))
+      if ((self%pumping(i) == pumps_up) .neqv. (self%member == on_sleeve)) angle = -angle
+      groove = groove_type(1.0_wp - self%ridge_part, self%depth, [cos(angle), sin(angle)], &
+                           self%member == on_shaft)
+    end do
+  end function groove_at
+
+  !> Places inside a width where bands begin or end, rising [m].
+  pure function row_ends(self, rows) result(ends)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    real(wp), intent(in) :: rows(2) !! its ends [m]
+    real(wp), allocatable :: ends(:)
+    real(wp) :: slack
+    integer :: i
+
+    allocate (ends(0))
+    if (.not. self%present) return
+    slack = rounding*maxval(abs(rows))
+    do i = 1, size(self%band_begin)
+      call add(self%band_begin(i))
+      call add(self%band_end(i))
+    end do
+
+  contains
+
+    !> Adds a place where it is inside, and no other's.
+    pure subroutine add(place)
+      real(wp), intent(in) :: place
+
+      if (place <= rows(1) + slack .or. place >= rows(2) - slack) return
+      if (size(ends) > 0) then
+        if (abs(place - ends(size(ends))) <= slack) return
+      end if
+      ends = [ends, place]
+    end subroutine add
+  end function row_ends
+end module gfb_groove_case
