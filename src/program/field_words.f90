@@ -112,7 +112,12 @@ module gfb_field_words
     field_word_type('preload lobe pad three_pad play', &
       'pads whose centres lie off the bearing''s', 'pads%count pads%preload pads%preload_offset', &
       'minimum_gap_1 running_play', 'equilibrium', 'pads', 'pads'), &
-    field_word_type('shim wear bore groove', &
+    field_word_type('herringbone spiral_groove grooved groove pumping', &
+      'grooves on shaft or sleeve, narrow and many, that the motion drives gas along', &
+      'grooves%on grooves%angle grooves%depth grooves%ridge_part grooves%band_begin '// &
+      'grooves%pumping', 'pumped_pressure flow_low flow_high', 'equilibrium', 'grooves', &
+      'grooves'), &
+    field_word_type('shim wear bore', &
       'a bore that is not round: waves, shims, a measured profile', &
       'bore%shim_height bore%wave_amplitude bore%profile_height', '', 'equilibrium', 'bore', &
       'gas_and_bore'), &

@@ -158,6 +158,10 @@ module gfb_plausible_values
     range_type(0.0_wp, 1.0e-6_wp, 'm^3', 'mm^3', 'feed%pocket_volume'), &
     range_type(0.3_wp, 1.0_wp, '1', '%', 'feed%discharge_coefficient'), &
     range_type(1.05_wp, 1.67_wp, '1', '%', 'feed%specific_heat_ratio'), &
+    range_type(0.15_wp, 1.2_wp, 'rad', 'deg', 'grooves%angle'), &
+    range_type(1.0e-7_wp, 1.0e-3_wp, 'm', 'um,mm', 'grooves%depth'), &
+    range_type(0.2_wp, 0.8_wp, '1', '%', 'grooves%ridge_part'), &
+    range_type(0.0_wp, 0.5_wp, 'm', 'mm,um', 'grooves%band_begin grooves%band_end'), &
     range_type(1.0e2_wp, 1.0e8_wp, 'N s/m^3', 'N s/mm^3', 'foil_damping%foundation_damping'), &
     range_type(1.0e6_wp, 1.0e13_wp, 'N/m^3', 'N/mm^3', 'foil_damping%maxwell_stiffness'), &
     range_type(1.0e-9_wp, 1.0e2_wp, 's', 'ms,us', 'foil_damping%maxwell_time'), &
@@ -281,6 +285,7 @@ contains
       call warn_of_growth(keys, scene)
       call warn_of_reference(keys, scene)
     end if
+    if (scene%grooves%present) call warn_of_depth(keys, scene)
     ! A load that is large against a wrong pressure is not wrong.
     if (keys%complaints%count + keys%warnings%count == mistakes) call check_load(keys, scene)
   end subroutine check_plausible
@@ -462,6 +467,23 @@ contains
                      ' K; that of a drawing holds at 293.15 K')
     end associate
   end subroutine warn_of_reference
+
+  !> Warns of grooves that are much shallower or deeper than the film is thick; without depth there
+  !> are none.
+  subroutine warn_of_depth(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    real(wp), parameter :: usual_ratios(2) = [0.2_wp, 5.0_wp] !! of depth and gap [1]
+    real(wp) :: gap, ratio
+
+    gap = scene%bearing%clearance
+    if (.not. gap > 0.0_wp) gap = scene%operation%axial_gap
+    if (.not. min(gap, scene%grooves%depth) > 0.0_wp) return
+    ratio = scene%grooves%depth/gap
+    if (ratio >= usual_ratios(1) .and. ratio <= usual_ratios(2)) return
+    call keys%warn('grooves', 'depth', 'is '//text(ratio, 3)//' of the gap of '//text(gap)// &
+                   ' m; usual is 0.2 to 5')
+  end subroutine warn_of_depth
 
   !> Warns of an improbable ring, and of a runner that would burst.
   subroutine warn_of_shape(keys, scene)

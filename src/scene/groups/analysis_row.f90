@@ -11,12 +11,14 @@ module gfb_analysis_row
 
   character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed grooves thermal '// &
     'shaft_contact operation sweep contact accuracy sample capacity'
-  character(len=*), parameter :: offered_often = ' pads bore thermal shaft_contact sweep'
+  character(len=*), parameter :: offered_often = ' pads bore grooves thermal shaft_contact sweep'
 
   character(len=*), parameter :: bearing = &
     '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 / '// &
     '&gas viscosity=1.95e-5 ambient_pressure=1.0135e5 / &pads preload=0.1 / '// &
-    '&bore waves=3 wave_amplitude=1.0e-6 / &shaft_contact roughness=0.5e-6 pressure=10.0e6 / '
+    '&bore waves=3 wave_amplitude=1.0e-6 / &shaft_contact roughness=0.5e-6 pressure=10.0e6 / '// &
+    "&grooves on='shaft' angle=0.5 depth=20.0e-6 band_begin=-19.05e-3, 4.0e-3 "// &
+    "band_end=-4.0e-3, 19.05e-3 pumping='up', 'down' / "
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.
   character(len=*), parameter :: bumps = '&bump_foil thickness=0.102e-3 youngs_modulus=214.0e9 '// &
     'poissons_ratio=0.29 half_length=1.778e-3 height=0.508e-3 pitch=4.572e-3 '
@@ -54,8 +56,8 @@ module gfb_analysis_row
 
   !> What shows an analysis: a case file that can be run. No scene carries it along.
   type, public :: analysis_example_type
-    character(len=80) :: offered = '' !! groups of it that stand in comments
-    character(len=1200) :: text = ''  !! the file but for `&scene`; it has an answer
+    character(len=100) :: offered = '' !! groups of it that stand in comments
+    character(len=1400) :: text = ''  !! the file but for `&scene`; it has an answer
   contains
     procedure :: offers
   end type analysis_example_type
@@ -140,16 +142,16 @@ module gfb_analysis_row
     analysis_example_type(offered_often//' accuracy sample ', &
       beams//load//"&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 / "// &
       "&capacity smallest_gap=4.0e-6 / &accuracy quantity='load_capacity' /"//sample//heat), &
-    analysis_example_type(' pads bore thermal sweep accuracy sample ', &
+    analysis_example_type(' pads bore grooves thermal sweep accuracy sample ', &
       beams//loads//'&capacity contact_part=0.01 / '// &
       "&accuracy quantity='lift_off_speed_rpm' /"//sample//heat), &
     analysis_example_type(offered_often//' accuracy sample ', &
       beams//loads//'&capacity smallest_gap=4.0e-6 / '// &
       "&accuracy quantity='misalignment_allowance' /"//sample//heat), &
-    analysis_example_type(' pads bore thermal shaft_contact ', &
+    analysis_example_type(' pads bore grooves thermal shaft_contact ', &
       beams//load//'&rotor mass=1.0 / &transient turns=0.2 / '// &
       '&unbalance unbalance=2.0e-6 /'//heat), &
-    analysis_example_type(' pads bore shaft_contact ', &
+    analysis_example_type(' pads bore grooves shaft_contact ', &
       bearing//"&model foil='elastic_foundation' foundation_stiffness=4.8243e9 / "// &
       '&mesh circumferential_elements=48 axial_elements=6 / '// &
       '&operation speed_rpm=30000.0 load=-60.0, 0.0 / &rotor mass=1.5 / '// &
