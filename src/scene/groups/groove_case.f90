@@ -97,8 +97,8 @@ contains
                              text(first(i))//' m', i)
         else if (bearing%length > 0.0_wp .and. (first(i) < rows(1) - slack .or. &
                                                 last(i) > rows(2) + slack)) then
-          call keys%complain(groove_group, merge('band_begin', 'band_end  ', &
-                             first(i) < rows(1) - slack), 'must lie on the pad, between '// &
+          call keys%complain(groove_group, trim(merge('band_begin', 'band_end  ', &
+                             first(i) < rows(1) - slack)), 'must lie on the pad, between '// &
                              text(rows(1))//' and '//text(rows(2))//' m', i)
         end if
         if (i == 1) cycle
