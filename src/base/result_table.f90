@@ -472,8 +472,8 @@ module gfb_result_table
       'of several pads: the same of each', changes_sign=.true.), &
     result_type('hammer_frequency', 'rad/s', number, bearing, &
       'at which a runner of the critical mass grows along the axis', &
-      'of a thrust bearing with `&feed`: at which a runner of the critical mass grows along '// &
-      'the axis; absent where the film damps all', asked=.true.), &
+      'of a thrust bearing with `&feed` or `&grooves`: at which a runner of the critical mass '// &
+      'grows along the axis; absent where the film damps all', asked=.true.), &
     result_type('critical_mass', 'kg', number, bearing, &
       'mass on this bearing above which a rigid shaft whirls, {at this load and speed}', &
       'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &

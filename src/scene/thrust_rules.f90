@@ -61,9 +61,10 @@ contains
                      'journal bearings, or axial_gap where it is held')
       call keys%rule('operation', 'axial_load', .not. bearing_wedges(scene) .and. &
                      keys%meant('operation', 'axial_load') .and. .not. &
-                     (scene%shaft_contact%present .or. scene%feed%present), 'cannot be carried '// &
+                     (scene%shaft_contact%present .or. scene%feed%present .or. &
+                      scene%grooves%present), 'cannot be carried '// &
                      'by flat pads under an aligned runner, whose film has no wedge: give '// &
-                     '&ramp, or &feed')
+                     '&ramp, &feed or &grooves')
       call keys%rule('bearing', 'leading_edge_condition', scene%bearing%is_ring() .and. &
                      scene%bearing%ramp_part > 0.0_wp, "must be 'slit' with &ramp: a full ring "// &
                      'has no leading edge')

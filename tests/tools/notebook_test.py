@@ -23,6 +23,13 @@ before = {path: path.stat().st_mtime_ns for path in __import__("pathlib").Path("
 assert len([path for path in before if path.suffix == ".summary"]) == 18
 gfb.study(case, {"bump_foil%thickness": thickness, "bearing%clearance": clearance}, folder="design_study", name="friction_0.2")
 assert before == {path: path.stat().st_mtime_ns for path in before}, "what is there was computed again"
+""", "grooves": """
+assert sleeve.within and shaft.within
+assert sleeve.results[0].after > 2.0*sleeve.results[0].before, "the gain is not there"
+assert all(row.after > 1.5 for row in (shaft.results[1], shaft.finer[1])) and shaft.results[0].after < shaft.results[0].before
+assert np.isnan(masses["shaft"][-1]) and max(masses["sleeve"]) < 1.0 and not np.isnan(masses["sleeve"]).any()
+assert abs(masses["shaft"][0]/masses["sleeve"][0] - 1.0) < 0.05, "shallow grooves are alike"
+assert len(plt.get_fignums()) == 1
 """, "optimize": """
 assert uniform.within and graded.within and start["bump_foil%bump_thickness"][0] == uniform.case["bump_foil%thickness"]
 for rows in (graded.results, graded.finer):
@@ -31,7 +38,7 @@ assert len(graded.runs) <= 30 and min(thickness) >= low and max(thickness) <= hi
 assert max(free) < max(films) and as_good < 0.5*len(free), "gradients are of little use"
 assert len(plt.get_fignums()) == 1
 """}
-SAID = {"design_study": "angular stiffness", "optimize": "by gradient: as much after"}
+SAID = {"design_study": "angular stiffness", "grooves": "on the sleeve at most", "optimize": "by gradient: as much after"}
 
 
 def cells_of(path, kind):

@@ -31,6 +31,7 @@ PURPOSES = {  # what a group is for, and where more of it stands
     "top_foil": "The foil under the film.",
     "bump_foil": "The bumps under the top foil, as drawn and as built ([strips_as_built.md](strips_as_built.md)).",
     "feed": "Gas that is fed into the film under pressure ([feed.md](feed.md)).",
+    "grooves": "Grooves on the shaft or the sleeve that pump gas ([grooves.md](grooves.md)).",
     "thermal": "Heat of gas, foils, shaft and sleeve ([heat.md](heat.md)).",
     "strip_load": "What loads a strip ([strip.md](strip.md)).",
     "contact": "Contact and friction of the foils ([strip.md](strip.md)).",

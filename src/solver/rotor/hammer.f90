@@ -1,9 +1,9 @@
-!> Pneumatic hammer of a bearing that is fed: where the film's damping along an axis is negative a
-!> heavy runner grows.
+!> Pneumatic hammer of a bearing that is fed or has deep grooves: where the film's damping along an
+!> axis is negative a heavy runner grows.
 !>
 !> A mass m on the film obeys \( (Z(\omega) - m \omega^2) s = 0 \) where it neither grows nor
 !> decays, with \( Z = K + i \omega C \) along the axis. So C vanishes there, and
-!> \( m = K/\omega^2 \): gas that pockets and orifices hold back answers late, and below that
+!> \( m = K/\omega^2 \): gas that pockets, orifices or grooves hold back answers late, and below that
 !> frequency drives what it should damp. The smallest mass decides; below it a runner is stable.
 module gfb_hammer
   use gfb_kinds, only: wp

@@ -87,7 +87,8 @@ contains
         call find_rotor_modes(held%bearing, response, rotor_of(scene), rotor)
       end if
     end if
-    if (.not. allocated(record%problem) .and. scene%bearing%row%has_sectors .and. scene%feed%present) then
+    if (.not. allocated(record%problem) .and. scene%bearing%row%has_sectors .and. &
+        (scene%feed%present .or. scene%grooves%present)) then
       call add_hammer(log, held%bearing, response, model, found, record%problem)
     end if
     if (.not. allocated(record%problem) .and. scene%bearing%row%moves_along .and. scene%rotor%present) then
@@ -432,10 +433,10 @@ contains
     end if
   end subroutine add_whirl
 
-  !> Looks for the mass that the supply makes grow along the axis.
+  !> Looks for the mass that the supply, or gas in deep grooves, makes grow along the axis.
   subroutine add_hammer(log, bearing, response, model, found, problem)
     type(run_log_type), intent(in) :: log
-    type(bearing_system_type), intent(in) :: bearing !! that is fed
+    type(bearing_system_type), intent(in) :: bearing !! that is fed or has grooves
     type(dynamic_response_type), intent(inout) :: response
     type(frequency_response_type), intent(inout) :: model !! of the frequencies that were asked for
     type(quantity_type), allocatable, intent(inout) :: found(:)
