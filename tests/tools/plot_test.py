@@ -287,6 +287,27 @@ class BearingTest(unittest.TestCase):
                 scene = plot_scene.read_scene(file)
             self.assertEqual((scene.words, abs(scene.load_angle)), (words, angle))
 
+    def test_grooves_are_drawn(self):
+        """A line of each groove, within one turn, broken where a turn ends."""
+        path = bearing_file(self.folder/"b.h5", [(-10.0, 0.0)], numpy.zeros((1, 3, 3)))
+        with h5py.File(path, "r+") as file:
+            del file["scene/used"]
+            file["scene/used"] = ("&bearing\n  radius = 0.02\n/\n&grooves\n  on = 'sleeve'\n  angle = 0.3\n  depth = 1e-5\n  band_begin = -0.01\n"
+                                  "  band_end = 0.01\n  pumping = 'up'\n  count = 5\n/\n")
+            file.create_group("summary")
+            scene = plot_scene.read_scene(file)
+        self.assertEqual(len(scene.grooves), 5)
+        figure, chart = plot_film.pyplot.subplots()
+        film = plot_film.Film(numpy.array([10.0, 370.0]), numpy.array([-0.01, 0.01]), {}, {})
+        plot_film.mark_grooves(chart, film, scene)
+        for line in chart.lines:
+            theta, along = line.get_data()
+            self.assertTrue(numpy.nanmin(theta) >= 10.0 and numpy.nanmax(theta) <= 370.0)
+            self.assertLess(numpy.nanmax(numpy.abs(numpy.diff(theta))), 180.0)
+            self.assertEqual((numpy.nanmin(along), numpy.nanmax(along)), (-10.0, 10.0))
+        self.assertTrue(any(numpy.isnan(line.get_xdata()).any() for line in chart.lines))
+        plot_film.pyplot.close(figure)
+
     def test_calls(self):
         bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
         for words, picture in ((("--show", "contact", "--step", "1,2"), "b.h5.contact.png"), (("--step", "2"), "b.h5.png"),

@@ -15,10 +15,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb.report.answer import Results  # noqa: E402
 from gfb.report.glance import glance  # noqa: E402
+from gfb.report.grooves import groove_lines, groove_words
 from gfb.report.main import read_run, thinnest_pad, write_page  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
 from gfb.report.margin import STOPPED, Margin  # noqa: E402
-from gfb.report.sketch import case_sketch, sketch  # noqa: E402
+from gfb.report.sketch import Bearing, case_sketch, sketch  # noqa: E402
 from gfb.report.thinnest import Place, place_of_thinnest  # noqa: E402
 from gfb.report.verdict import colour_of, margins_of, not_computed, plain, sentence  # noqa: E402
 from gfb.tool import ROOT  # noqa: E402
@@ -215,6 +216,32 @@ class ReportTest(unittest.TestCase):
         self.assertAlmostEqual(max(turned) - min(turned), 0.2*45.0, delta=0.1)
         for key, value in (("bearing%radius", "30 mil"), ("bearing%radius", -1.0), ("pads%count", 0), ("pads%arc", 7.0), ("bearing%clearance", "2."), ("bump_foil%pitch", 0.0)):
             self.assertIsNone(case_sketch(gfb.Case(case.groups | {(group := key.split("%")[0]): case.groups[group] | {key.split("%")[1]: value}})), (key, value))
+
+    def test_grooves_run_where_they_pump(self):
+        """Lines rise with theta where grooves at rest pump up; on the shaft it is the other way round; spirals keep their angle; each is in the sketch."""
+        journal, ring = (gfb.Case.read(ROOT/f"inputs/groove_{name}.nml") for name in ("herringbone", "spiral_thrust"))
+        for member, sign in (("shaft", -1.0), ("sleeve", 1.0)):
+            journal["grooves%on"] = member
+            lines = groove_lines(Bearing(journal))
+            self.assertEqual(len(lines), 2*20)
+            for line, up in ((lines[0], sign), (lines[-1], -sign)):
+                (begin, low), (end, high) = line[0], line[-1]
+                self.assertAlmostEqual(15.0e-3*(end - begin), up*(high - low)/math.tan(0.489))
+            self.assertEqual(groove_words(Bearing(journal)), f"grooves on the {member}, 28 deg, 12 um deep")
+        for line in groove_lines(Bearing(ring)):
+            for (begin, low), (end, high) in zip(line, line[1:]):
+                self.assertAlmostEqual(0.5*(low + high)*(end - begin)/(high - low), 1.0/math.tan(0.297), delta=2.0e-3)
+        for case, least in ((journal, 20), (ring, 24)):
+            shapes = case_sketch(case)["shapes"]
+            self.assertGreaterEqual(sum(look == "groove line" and groups == "grooves" for look, groups, _ in shapes), least)
+        self.assertEqual(groove_lines(Bearing(gfb.Case(SMALL))), [])
+        ring["grooves%angle"] = 2.0
+        self.assertIsNone(case_sketch(ring))
+        del ring["grooves%pumping"]
+        self.assertEqual(groove_lines(Bearing(ring)), [])
+        some = {name: {"value": value, "unit": unit, "meaning": ""} for name, value, unit in (
+            ("minimum_gap", 9.0e-6, "m"), ("pumped_pressure", 9.5e4, "Pa"), ("flow_low", -0.8, "Pa m3/s"), ("flow_high", 0.8, "Pa m3/s"))}
+        self.assertIn(("pumped up by grooves", "95 kPa", "0.8 Pa m3/s flow to larger z or radius", False), glance(some, journal))
 
     def test_a_verdict_stands_first(self):
         """What limits, and by how much; the nearest of what is kept; and what has no limit, or was not computed."""

@@ -13,6 +13,7 @@ from gfb.tool import stop
 
 FIELDS = ("pressure", "gap", "deflection")
 WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
+GROOVE = {"color": "k", "linewidth": 0.5, "alpha": 0.5}  # a line along a groove
 ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane
 
 
@@ -99,6 +100,7 @@ def draw_film(path, file):
         lines.plot(theta, shown[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
         draw_edges(lines, theta, shown, axial)
         mark_load((chart, lines), film, scene)
+        mark_grooves(chart, film, scene)
         if name == "gap":
             mark_thinnest(chart, lines, film, values, unit)
         lines.set_ylabel(f"{WORDS[name]} [{unit}]")
@@ -127,6 +129,14 @@ def mark_load(charts, film, scene):
     place = film.theta[0] + (scene.load_angle - film.theta[0]) % 360.0
     for chart in charts:
         chart.axvline(place, color="k", linewidth=0.9, linestyle="-.", label="direction of the load")
+
+
+def mark_grooves(chart, film, scene):
+    """Thin lines along the grooves, as they lie at one moment."""
+    for line in scene.grooves:
+        theta, along = numpy.degrees([angle for angle, _ in line]), [1.0e3*place for _, place in line]
+        theta = film.theta[0] + (theta - film.theta[0]) % 360.0
+        chart.plot(*broken(theta, numpy.array(along), numpy.flatnonzero(numpy.abs(numpy.diff(theta)) > 180.0) + 1), **GROOVE)
 
 
 def mark_thinnest(chart, lines, film, values, unit):

@@ -4,7 +4,7 @@ import numpy
 from matplotlib import pyplot
 
 from gfb.plot.colours import around_zero, draw_bar, levels_of, look_of, round_numbers
-from gfb.plot.film import ROUND_OFF, WORDS, readable
+from gfb.plot.film import GROOVE, ROUND_OFF, WORDS, readable
 from gfb.plot.foil import round_scale, shape_of
 from gfb.plot.scene import scene_of
 from gfb.report.thinnest import node_of_thinnest
@@ -40,7 +40,7 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
     fields, points = file["VTKHDF/PointData"], 1.0e3*file["VTKHDF/Points"][...]
     names = [name for name in words if name in fields and (name != "deflection" or numpy.any(fields[name]))]
     figure, axes = pyplot.subplots(1, len(names), figsize=(4.6*len(names), 4.8), squeeze=False, layout="constrained")
-    sectors = sectors_of(file)
+    sectors, scene = sectors_of(file), scene_of(path)
     for chart, name in zip(axes[0], names, strict=True):
         values, unit = readable(fields[name])
         low, high = bounds(values)
@@ -56,12 +56,14 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
             chart.plot(points[thinnest, 0], points[thinnest, 1], "o", color="w", markeredgecolor="k", markersize=6.0, zorder=5)
             chart.text(0.5, 0.5, f"thinnest\n{values[thinnest]:.3g} {unit}", transform=chart.transAxes, ha="center", va="center",
                        fontsize=9)
+        for line in scene.grooves:
+            chart.plot(*(1.0e3*numpy.array([(r*numpy.cos(angle), r*numpy.sin(angle)) for angle, r in line])).T, **GROOVE)
         draw_bar(figure, chart, **shades, location="bottom", extend=beyond)
         chart.set_title(f"{words[name]} [{unit}]", fontsize=10)
         chart.set_aspect("equal")
         chart.set_xlabel("x [mm]")
         chart.set_ylabel("y [mm]")
-    figure.suptitle(scene_of(path).title(path) + "\nthe runner turns from x to y; leading edges are black", fontsize=10)
+    figure.suptitle(scene.title(path) + "\nthe runner turns from x to y; leading edges are black", fontsize=10)
     return figure
 
 

@@ -7,7 +7,10 @@ from typing import Optional
 import numpy
 
 from gfb import steps
-from gfb.results import BROKEN, open_results, used_keys
+from gfb.case import Case
+from gfb.report.grooves import groove_lines
+from gfb.report.sketch import Bearing
+from gfb.results import BROKEN, open_results, text_of, used_keys
 
 MODELS = {"rigid": "rigid", "elastic_foundation": "elastic foundation", "beam": "beams", "shell": "shells", "plate": "plate on crests"}
 WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle": "angle of the load", "minimum_gap": "thinnest film",
@@ -32,6 +35,7 @@ class Scene:
     radius: Optional[float] = None      # of the shaft [m]
     begins: tuple = (0.0,)    # theta where each pad begins [deg]
     frequencies: dict = dataclasses.field(default_factory=dict)  # mode_1: natural frequency [Hz]
+    grooves: tuple = ()                 # lines along grooves, points (theta [rad], z or radius [m])
 
     def title(self, path):
         """The case's name, and these words."""
@@ -62,6 +66,8 @@ def read_scene(file):
         return scene
     scene.radius = number(keys, "bearing", "radius")
     scene.begins = tuple(map(math.degrees, leading_edges(keys)))
+    if ("grooves", "on") in keys:
+        scene.grooves = tuple(groove_lines(Bearing(Case.parse(text_of(file["scene/used"][()])))))
     words, history = [], file["history"]
     if "force_x" in summary and "force_y" in summary:
         force = complex(summary["force_x"][()], summary["force_y"][()])

@@ -8,6 +8,8 @@ from gfb.report.machine import is_machine, machine_glance
 from gfb.report.margin import ONSET
 from gfb.report.verdict import FILM, HEAT, STRESS, all_margins
 
+ROUND_OFF = 1.0e-9  # of a flow [Pa m3/s]
+
 
 def glance(summary, case, place=None, frequency=None, machine=None):
     """(what, how much, margin or verdict, whether that is a bad one) of one run; place: where its film is thinnest; frequency: of its
@@ -15,7 +17,7 @@ def glance(summary, case, place=None, frequency=None, machine=None):
     results = Results(summary, case, place, frequency, machine)
     if is_machine(case):
         return list(machine_glance(results))
-    return [row for question in (film, centre, load, limits, losses, balance, vibrations, rotor, foils, heat) for row in question(results)]
+    return [row for question in (film, centre, load, limits, losses, grooves, balance, vibrations, rotor, foils, heat) for row in question(results)]
 
 
 def film(results):
@@ -82,6 +84,14 @@ def losses(results):
     """Power and torque."""
     if results.value("power_loss") is not None:
         yield "power loss", f"{results.value('power_loss'):.4g} W", f"friction torque {results.words('friction_torque')}", False
+
+
+def grooves(results):
+    """How far grooves pump the film up, and what flows out of its ends."""
+    if results.value("pumped_pressure") is None:
+        return
+    flows = abs(results.value("flow_low") or 0.0) > ROUND_OFF
+    yield "pumped up by grooves", results.words("pumped_pressure"), f"{results.words('flow_high')} flow to larger z or radius" if flows else "", False
 
 
 def balance(results):

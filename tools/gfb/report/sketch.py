@@ -5,6 +5,7 @@ import itertools
 import math
 
 from gfb.report.answer import THINNEST, Results, direction, is_number
+from gfb.report.grooves import groove_lines, groove_words, shown_parts
 from gfb.report.sketch_lines import ROOM, SIDE, TURN, Drawing, arc_of, circle, line, place
 
 SHAFT, RING, BAND = 64.0, 85.0, 5.0  # radius of a shaft, outer radius of sectors, thickness of a sleeve
@@ -210,6 +211,7 @@ def draw_journal(bearing, with_side):
         if bearing.case.get("scene%analysis") == "load_capacity":
             drawing.arrow("motion", "capacity", place(46.0, angle), place(SHAFT - 2.0, angle))
     drawing.notes += [("note load", "→ load")]*bool(both and math.hypot(*both) > 0.0) + [("note", "x →, y ↑, turns ↺")]
+    drawing.notes.append(("note groove", groove_words(bearing)))
     if with_side:
         long = side_of_journal(drawing, bearing, scale)
         drawing.notes.append(("note", f"radius {1.0e3*bearing.radius:.4g} mm{long}"))
@@ -246,6 +248,8 @@ def side_of_journal(drawing, bearing, scale):
     for sign in (-1.0, 1.0):
         near = [(begin, 100.0 + sign*(max(radius - rise, 1.0) + BAND)), (end, 100.0 + sign*(radius + rise + BAND))]
         drawing.add("pad", "bearing pads bore", line([*near, *((x, y + sign*BAND) for x, y in reversed(near))], True))
+    for part in itertools.chain(*(shown_parts(one, lambda angle, _: math.cos(angle) >= 0.0) for one in groove_lines(bearing))):
+        drawing.add("groove line", "grooves", line([(0.5*(begin + end) + scale*along, 100.0 - radius*math.sin(angle)) for angle, along in part]))
     lean = 0.06*(end - begin) if bearing.case.get("scene%analysis") == "misalignment_allowance" or "operation%tilt" in bearing.case else 0.0
     drawing.add("axis line", "operation capacity", line([(begin - 16.0, 100.0 + lean), (end + 16.0, 100.0 - lean)]))
     return f", length {1.0e3*length:.4g} mm" + (f", half angle {math.degrees(slope):.3g} deg" if slope else "")
@@ -266,7 +270,10 @@ def draw_ring(bearing, with_side):
             drawing.add("ramp", "ramp", line([*arc_of(RING, begin, part*bearing.arc), *reversed(arc_of(scale*inner, begin, part*bearing.arc))], True))
         for crest in crests*(len(crests)*bearing.count <= MOST_BUMPS):
             drawing.add("bump line", "bump_foil contact", line([place(scale*inner, begin + crest), place(RING, begin + crest)]))
+    for one in groove_lines(bearing):
+        drawing.add("groove line", "grooves", line([place(scale*along, angle) for angle, along in one]))
     drawing.notes += [("note load", "↓ load on the runner")]*(with_side and bool(bearing.number("operation%axial_load"))) + [("note", "x →, y ↑, turns ↺")]
+    drawing.notes.append(("note groove", groove_words(bearing)))
     if with_side:
         larger = section_of_ring(drawing, bearing, inner, part)
         drawing.notes.append(("note", f"radius {1.0e3*inner:.4g} to {1.0e3*bearing.radius:.4g} mm, {bearing.count} pads of {math.degrees(bearing.arc):.4g} deg"))
