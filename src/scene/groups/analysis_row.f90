@@ -9,8 +9,8 @@ module gfb_analysis_row
   integer, parameter, public :: limit_speed = 2 !! the one that lifts the asperities off
   integer, parameter, public :: limit_tilt = 3  !! the largest that leaves the film
 
-  character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed grooves thermal '// &
-    'shaft_contact operation sweep contact accuracy sample capacity'
+  character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed grooves '// &
+    'thermal shaft_contact operation sweep contact accuracy sample capacity'
   character(len=*), parameter :: offered_often = ' pads bore grooves thermal shaft_contact sweep'
 
   character(len=*), parameter :: bearing = &
