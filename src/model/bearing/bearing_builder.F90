@@ -32,7 +32,7 @@ module gfb_bearing_builder
   use gfb_heat_switch, only: follow_frozen
   use gfb_changed_foil, only: take_foil_numbers
   use gfb_feed_builder, only: find_feed, take_feed_numbers
-  use gfb_film_refinement, only: refine_at_holes, meet_bands
+  use gfb_film_refinement, only: refine_at_holes, meet_bands, lay_along_grooves
   use gfb_groove_film, only: groove_type
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
@@ -43,7 +43,7 @@ module gfb_bearing_builder
   use gfb_heated_film, only: heated_gas_type
   use gfb_bearing_heat, only: film_heat_type, wall_type
   use gfb_thermal_case, only: foil_sheet
-  use gfb_pad, only: pad_place_type, create_pad_film, shift_pad, move_crests
+  use gfb_pad, only: pad_type, pad_place_type, create_pad_film, shift_pad, move_crests
   use gfb_bearing_system, only: bearing_system_type, create_bearing_system
   use gfb_mesh_case, only: linear_solver_iterative
   use gfb_mesh_dm, only: local_mesh_type
@@ -360,29 +360,53 @@ contains
           call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, pad%foil%rate, pad%film)
         end if
         call pad%film%put(gap_part_type(name='interference', level=scene%bearing%interference))
-        if (scene%grooves%present) call put_grooves(scene, pad%film)
+        if (scene%grooves%present) call put_grooves(scene, pad)
         pad%film%law = scene%gas%law
         pad%contact = scene%shaft_contact
       end associate
     end do
   end subroutine take_film_numbers
 
-  !> Grooves of a film's elements, each of which lies in one band or between two.
-  subroutine put_grooves(scene, film)
+  !> Grooves of a film's elements, each of which lies in one band or between two; where each groove is meshed, in one or on a ridge.
+  subroutine put_grooves(scene, pad)
     type(scene_type), intent(in) :: scene
-    type(gas_film_type), intent(inout) :: film !! this rank's
+    type(pad_type), intent(inout) :: pad
     type(gap_part_type) :: part
+    real(wp) :: middle
     integer :: element
 
     part%name = 'grooves'
-    allocate (part%groove(size(film%element_nodes, 2)))
-    do element = 1, size(part%groove)
-      associate (along => film%axial(film%element_nodes(:, element)))
-        part%groove(element) = scene%grooves%groove_at(0.5_wp*(minval(along) + maxval(along)))
-      end associate
-    end do
-    call film%put(part)
+    associate (film => pad%film, grooves => scene%grooves)
+      allocate (part%groove(size(film%element_nodes, 2)))
+      if (grooves%are_resolved()) part%excess = spread(0.0_wp*film%shape(1, :), 2, size(part%groove))
+      do element = 1, size(part%groove)
+        associate (nodes => film%element_nodes(:, element))
+          middle = 0.5_wp*(minval(film%axial(nodes)) + maxval(film%axial(nodes)))
+          part%groove(element) = grooves%groove_at(middle)
+          if (.not. grooves%are_resolved()) cycle
+          if (.not. abs(grooves%line_angle(middle)) > 0.0_wp) cycle
+          if (lies_in_groove(scene, pad, element)) part%excess(:, element) = -grooves%depth
+        end associate
+      end do
+    end associate
+    call pad%film%put(part)
   end subroutine put_grooves
+
+  !> Whether an element lies in a groove: the first one begins at the first station, its ridge follows.
+  pure logical function lies_in_groove(scene, pad, element) result(lies)
+    type(scene_type), intent(in) :: scene !! with grooves that are meshed
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: element !! of this rank's film
+    real(wp), parameter :: rounding = 1.0e-6_wp !! of a pitch
+    integer :: station(size(pad%film%element_nodes, 1)), first
+    real(wp) :: phase
+
+    station = (pad%mesh%mesh_node(pad%film%element_nodes(:, element)) - 1)/pad%whole%rows() + 1
+    first = minval(station)
+    if (maxval(station) - first > pad%whole%order) first = minval(station, station > pad%whole%order) ! it closes the ring
+    phase = (pad%whole%station_angle(first) - pad%whole%station_angle(1))/turn*real(scene%grooves%count, wp) + rounding
+    lies = modulo(phase, 1.0_wp) < 1.0_wp - scene%grooves%ridge_part
+  end function lies_in_groove
 
   !> Gives a bearing, whose foils can take them, the numbers of a scene that do not move its meshes: of film, gas, bore,
   !> asperities and contacts. What is assembled of the foils stays.
@@ -523,6 +547,7 @@ contains
     mesh%planned = [plan%circumferential, plan%axial]
     mesh%surface = surface_of(scene%bearing)
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
+    if (scene%grooves%are_resolved()) call lay_along_grooves(scene, plan%axial, mesh)
 
   contains
 

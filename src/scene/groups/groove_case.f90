@@ -16,8 +16,17 @@ module gfb_groove_case
   character(len=*), parameter, public :: groove_group = 'grooves'
 
   integer, parameter, public :: on_shaft = 1, on_sleeve = 2
+  integer, parameter, public :: grooves_narrow = 1   !! infinitely many
+  integer, parameter, public :: grooves_resolved = 2 !! as many as there are
+  integer, parameter :: fewest_elements = 4 !! of a pitch
+  ! Those that give the load of the rows of two programs to 2e-3, of 8 to 48 grooves.
+  integer, parameter :: usual_elements = 12 !! of a pitch at least
+  integer, parameter :: usual_around = 192  !! of all of them at least
+  integer, parameter, public :: resolved_rows = 40 !! across the width
+  real(wp), parameter, public :: resolved_refinement = 20.0_wp !! of ridge, groove and band
   integer, parameter :: pumps_up = 1
   character(len=*), parameter :: member_words(*) = [character(len=6) :: 'shaft', 'sleeve']
+  character(len=*), parameter :: model_words(*) = [character(len=8) :: 'narrow', 'resolved']
   character(len=*), parameter :: pumping_words(*) = [character(len=4) :: 'up', 'down']
   real(wp), parameter :: rounding = 1.0e-9_wp !! of places that are meant to be equal, relative
   real(wp), parameter :: most_grooves = 1000.0_wp
@@ -31,9 +40,11 @@ module gfb_groove_case
     real(wp) :: ridge_part = 0.5_wp   !! of the pattern [1]
     real(wp), allocatable :: band_begin(:), band_end(:) !! [m]
     integer, allocatable :: pumping(:)                  !! of each band
-    integer :: count = 0 !! grooves around; 0: their limit
+    integer :: count = 0 !! grooves around; 0: not known
+    integer :: model = grooves_narrow
   contains
     procedure, non_overridable :: mirrors, groove_at, row_ends
+    procedure, non_overridable :: are_resolved, elements_around, line_angle
   end type groove_case_type
 
 contains
@@ -69,9 +80,18 @@ contains
     call keys%word_list_key('pumping', grooves%pumping, pumping_words, longest_list, 'of each '// &
                             'band: where the motion drives the gas, to larger or to smaller z, '// &
                             'or radius', .true.)
-    call keys%integer_key('count', grooves%count, 'grooves of a band around the shaft; they '// &
-                          'are taken as infinitely many, and this says what that leaves out', &
-                          from_to(0.0_wp, most_grooves), default='0: not known')
+    call keys%choice_key('model', grooves%model, model_words, 'what is solved: the limit of '// &
+                         'infinitely many grooves, or each of them on a mesh along its lines, '// &
+                         'on a sleeve or ring that stands still')
+    call keys%integer_key('count', grooves%count, 'grooves of a band around the shaft; in the '// &
+                          'limit they are taken as infinitely many, and this says what that '// &
+                          'leaves out', from_to(0.0_wp, most_grooves), default='0: not known')
+    call keys%rule(groove_group, 'count', grooves%are_resolved() .and. grooves%count == 0, &
+                   "must be given with model = 'resolved'")
+    if (grooves%are_resolved()) then
+      call keys%act_on('angle', acts_on_all)
+      call keys%act_on('ridge_part', acts_on_all)
+    end if
     if (grooves%present) call check_bands(keys, grooves, bearing)
   end subroutine read_groove_case
 
@@ -142,25 +162,57 @@ contains
     end associate
   end function mirrors
 
-  !> The grooves at a place across the motion; without a share between bands.
-  !>
-  !> Lines that rise with theta drive gas up on a surface at rest, down on one that moves.
+  !> The limit of the grooves at a place across the motion; without a share between bands, and where
+  !> each groove is meshed.
   pure type(groove_type) function groove_at(self, along) result(groove)
     class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
     real(wp), intent(in) :: along !! z, or radius [m]
     real(wp) :: angle
-    integer :: i
 
     groove = groove_type()
+    angle = self%line_angle(along)
+    if (self%are_resolved() .or. .not. abs(angle) > 0.0_wp) return
+    groove = groove_type(1.0_wp - self%ridge_part, self%depth, [cos(angle), sin(angle)], &
+                         self%member == on_shaft)
+  end function groove_at
+
+  !> Angle of the grooves' lines with the motion at a place across it, positive where they rise with
+  !> theta; 0 between bands [rad].
+  !>
+  !> Lines that rise with theta drive gas up on a surface at rest, down on one that moves.
+  pure real(wp) function line_angle(self, along) result(angle)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    real(wp), intent(in) :: along !! z, or radius [m]
+    integer :: i
+
+    angle = 0.0_wp
     if (.not. self%present) return
     do i = 1, size(self%band_begin)
       if (along < self%band_begin(i) .or. along > self%band_end(i)) cycle
       angle = self%angle(min(i, size(self%angle)))
       if ((self%pumping(i) == pumps_up) .neqv. (self%member == on_sleeve)) angle = -angle
-      groove = groove_type(1.0_wp - self%ridge_part, self%depth, [cos(angle), sin(angle)], &
-                           self%member == on_shaft)
     end do
-  end function groove_at
+  end function line_angle
+
+  !> Whether each groove is meshed.
+  pure logical function are_resolved(self) result(resolved)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    resolved = self%present .and. self%model == grooves_resolved
+  end function are_resolved
+
+  !> Elements around the shaft: a whole number of each groove and of each ridge; as they are where
+  !> grooves are not meshed.
+  pure integer function elements_around(self, wanted) result(elements)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    integer, intent(in), optional :: wanted !! about so many; default: what usually suffices
+
+    elements = self%count*usual_elements
+    if (self%count > 0) elements = self%count*max(usual_elements, (usual_around + self%count - 1)/self%count)
+    if (present(wanted)) then
+      elements = wanted
+      if (self%are_resolved()) elements = self%count*max(fewest_elements, nint(real(wanted, wp)/real(self%count, wp)))
+    end if
+  end function elements_around
 
   !> Places inside a width where bands begin or end, rising [m].
   pure function row_ends(self, rows) result(ends)
