@@ -11,15 +11,18 @@
 !> \( S = (2 \langle h \rangle I - H) e_x \) where they turn with the shaft. Grooves on the shaft add nothing that changes in time: the
 !> pressure is steady in this frame.
 !>
+!> Near the end of a band the jump of `gfb_groove_ends` is spread over a narrow strip, where it adds to the slope along z.
+!>
 !> Source: [VohrChow1965], derived anew with the frame of the grooves, where \( w = \pm U e_x \).
 module gfb_groove_film
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_film_flow, only: film_flow_type, flow_here
   use gfb_gas_law, only: gas_law_type, gas_state_type, gas_state
+  use gfb_groove_ends, only: fitted, end_open, end_jump
   implicit none (type, external)
   private
-  public :: groove_residual, groove_jacobian, groove_friction, groove_friction_rates, mean_depth
+  public :: groove_residual, groove_jacobian, groove_friction, groove_friction_rates, mean_depth, groove_jump
 
   !> The grooves of an element. Without a share there are none.
   type, public :: groove_type
@@ -27,6 +30,13 @@ module gfb_groove_film
     real(wp) :: depth = 0.0_wp      !! d [m]
     real(wp) :: along(2) = [1.0_wp, 0.0_wp] !! t, along the lines (x, z) [1]
     logical :: turns = .false.      !! they are on the shaft
+    integer :: band = 0             !! its number
+    real(wp) :: spread = 0.0_wp     !! pitch over the width on which the jump at the band's end is spread; 0: there is none [1]
+    real(wp) :: side = 1.0_wp       !! 1: the band lies behind its end, -1: before it, along z or r
+    real(wp) :: sense = 1.0_wp      !! 1: the motion pumps as in the fit, -1: against it
+    integer :: outside = end_open   !! of the band's end
+    real(wp) :: pitch = 0.0_wp      !! [m]
+    real(wp) :: fit(fitted, 2) = 0.0_wp !! see `gfb_groove_ends`
   end type groove_type
 
   ! A number that follows pressure and gap is a list: itself, its derivative by p, its derivative by h.
@@ -141,7 +151,7 @@ contains
     shapes = film_shapes(size(gap))
     drag = 0.0_wp
     do i = 1, size(gap)
-      here = pattern_at(law, groove, dot_product(shapes(:, i), pressure), dot_product(shapes(:, i), gap) + excess(i))
+      here = pattern_at(law, without_end(groove), dot_product(shapes(:, i), pressure), dot_product(shapes(:, i), gap) + excess(i))
       speed = geometry%stretch(i)*flow%entraining_speed
       slope = matmul(geometry%gradient(:, :, i), pressure - pressure(1))
       drag = drag + geometry%area(i)*geometry%stretch(i)* &
@@ -168,7 +178,7 @@ contains
     by_gap = 0.0_wp
     do i = 1, size(gap)
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), area => geometry%area(i)*geometry%stretch(i))
-        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+        here = pattern_at(law, without_end(groove), dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
         speed = geometry%stretch(i)*flow%entraining_speed
         slope = matmul(gradient, pressure - pressure(1))
         by_pressure = by_pressure + area*(0.5_wp*matmul(here%shear(value, :), gradient) &
@@ -177,6 +187,14 @@ contains
       end associate
     end do
   end subroutine groove_friction_rates
+
+  !> A band's grooves, where its end does not count: its jump has no part in the drag.
+  pure type(groove_type) function without_end(groove) result(band)
+    type(groove_type), intent(in) :: groove
+
+    band = groove
+    band%spread = 0.0_wp
+  end function without_end
 
   !> A symmetric tensor (xx, xz, zz) times a slope.
   pure function flux_of(tensor, slope) result(flux)
@@ -232,8 +250,66 @@ contains
       here%shear = -here%shear
       here%shear(:, 1) = here%shear(:, 1) + 2.0_wp*height
     end if
+    if (groove%spread > 0.0_wp) call add_end(groove, gap, across*cosine**2 + conductance*sine**2, here)
     here%drag = times(viscosity, couette + 3.0_wp*sine**2*(squared - times(lag, dragged)))
   end function pattern_at
+
+  !> Adds the jump at a band's end to the slope in its strip.
+  !>
+  !> There the band's own slope is \( p_z - \sigma J/w \) with the jump J, the strip's width w and the side \( \sigma \) of the band.
+  !> J is linear in the flow across, so that \( q_z/r \) has the factor \( D = 1/(1 - c_2 K_{zz} l/(w h^3)) \), and a shear of its own.
+  pure subroutine add_end(groove, gap, open, here)
+    type(groove_type), intent(in) :: groove
+    real(wp), intent(in) :: gap     !! h [m]
+    real(wp), intent(in) :: open(3) !! K_zz [m3]
+    type(pattern_type), intent(inout) :: here !! of the band
+    real(wp) :: numbers(2), by_gap(2), factor(3), share(3), before(3), turned(3), own(3)
+    real(wp), parameter :: one(3) = [1.0_wp, 0.0_wp, 0.0_wp]
+
+    call end_jump(groove%fit, groove%outside, groove%depth, gap, numbers, by_gap)
+    factor = groove%spread*[numbers(2)/gap**3, 0.0_wp, by_gap(2)/gap**3 - 3.0_wp*numbers(2)/gap**4]
+    factor = over(one, one - times(factor, open))
+    own = groove%side*groove%sense*groove%spread* &
+          [numbers(1)/gap**2, 0.0_wp, by_gap(1)/gap**2 - 2.0_wp*numbers(1)/gap**3]
+    before = here%shear(:, 2)
+    here%shear(:, 2) = times(factor, before + times(own, open))
+    share = over(here%mobility(:, 2), here%mobility(:, 3)) ! K_xz over K_zz
+    here%shear(:, 1) = here%shear(:, 1) + times(share, here%shear(:, 2) - before)
+    turned = times(factor - one, here%mobility(:, 2))
+    here%mobility(:, 1) = here%mobility(:, 1) + times(share, turned)
+    here%mobility(:, 2) = here%mobility(:, 2) + turned
+    here%mobility(:, 3) = times(factor, here%mobility(:, 3))
+  end subroutine add_end
+
+  !> The jump of the pressure at a band's end, into the band, times the area of an element of its strip [N].
+  pure real(wp) function groove_jump(geometry, flow, law, groove, pressure, gap, excess) result(jump)
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    type(film_flow_type), intent(in) :: flow !! speed of the film
+    type(gas_law_type), intent(in) :: law    !! of the gas
+    type(groove_type), intent(in) :: groove  !! of the element
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! of the ridges at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux(2), speed, h, p, numbers(2), by_gap(2)
+    type(pattern_type) :: here
+    type(gas_state_type) :: gas
+    integer :: i
+
+    shapes = film_shapes(size(gap))
+    jump = 0.0_wp
+    do i = 1, size(gap)
+      p = dot_product(shapes(:, i), pressure)
+      h = dot_product(shapes(:, i), gap) + excess(i)
+      here = pattern_at(law, groove, p, h)
+      gas = gas_state(law, p)
+      speed = geometry%stretch(i)*flow%entraining_speed
+      slope = matmul(geometry%gradient(:, :, i), pressure - pressure(1))
+      flux = speed*here%gas(value)*here%shear(value, :) - flux_of(here%mobility(value, :), slope)
+      call end_jump(groove%fit, groove%outside, groove%depth, h, numbers, by_gap)
+      jump = jump + geometry%area(i)*groove%pitch*12.0_wp*gas%mu/h**2* &
+             (groove%sense*numbers(1)*speed + numbers(2)*groove%side*flux(2)/(gas%r*h))
+    end do
+  end function groove_jump
 
   !> G, what is open to a flow of pressure [m3].
   pure function conductance_of(law, pressure, gap) result(open)

@@ -33,7 +33,7 @@ module gfb_bearing_builder
   use gfb_changed_foil, only: take_foil_numbers
   use gfb_feed_builder, only: find_feed, take_feed_numbers
   use gfb_film_refinement, only: refine_at_holes, meet_bands, lay_along_grooves
-  use gfb_groove_film, only: groove_type
+  use gfb_groove_case, only: groove_case_type
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
@@ -346,8 +346,11 @@ contains
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
     type(gap_shape_item_type), allocatable :: shape(:)
+    type(groove_case_type) :: grooves
     integer :: i, k
 
+    grooves = scene%grooves
+    call grooves%weigh_ends()
     bearing%asperities = scene%shaft_contact
     call take_feed_numbers(scene, bearing)
     do i = 1, size(bearing%pad)
@@ -360,7 +363,7 @@ contains
           call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, pad%foil%rate, pad%film)
         end if
         call pad%film%put(gap_part_type(name='interference', level=scene%bearing%interference))
-        if (scene%grooves%present) call put_grooves(scene, pad)
+        if (grooves%present) call put_grooves(grooves, pad)
         pad%film%law = scene%gas%law
         pad%contact = scene%shaft_contact
       end associate
@@ -368,15 +371,15 @@ contains
   end subroutine take_film_numbers
 
   !> Grooves of a film's elements, each of which lies in one band or between two; where each groove is meshed, in one or on a ridge.
-  subroutine put_grooves(scene, pad)
-    type(scene_type), intent(in) :: scene
+  subroutine put_grooves(grooves, pad)
+    type(groove_case_type), intent(in) :: grooves !! whose ends are weighed
     type(pad_type), intent(inout) :: pad
     type(gap_part_type) :: part
     real(wp) :: middle
     integer :: element
 
     part%name = 'grooves'
-    associate (film => pad%film, grooves => scene%grooves)
+    associate (film => pad%film)
       allocate (part%groove(size(film%element_nodes, 2)))
       if (grooves%are_resolved()) part%excess = spread(0.0_wp*film%shape(1, :), 2, size(part%groove))
       do element = 1, size(part%groove)
@@ -385,7 +388,7 @@ contains
           part%groove(element) = grooves%groove_at(middle)
           if (.not. grooves%are_resolved()) cycle
           if (.not. abs(grooves%line_angle(middle)) > 0.0_wp) cycle
-          if (lies_in_groove(scene, pad, element)) part%excess(:, element) = -grooves%depth
+          if (lies_in_groove(grooves, pad, element)) part%excess(:, element) = -grooves%depth
         end associate
       end do
     end associate
@@ -393,8 +396,8 @@ contains
   end subroutine put_grooves
 
   !> Whether an element lies in a groove: the first one begins at the first station, its ridge follows.
-  pure logical function lies_in_groove(scene, pad, element) result(lies)
-    type(scene_type), intent(in) :: scene !! with grooves that are meshed
+  pure logical function lies_in_groove(grooves, pad, element) result(lies)
+    type(groove_case_type), intent(in) :: grooves !! that are meshed
     type(pad_type), intent(in) :: pad
     integer, intent(in) :: element !! of this rank's film
     real(wp), parameter :: rounding = 1.0e-6_wp !! of a pitch
@@ -404,8 +407,8 @@ contains
     station = (pad%mesh%mesh_node(pad%film%element_nodes(:, element)) - 1)/pad%whole%rows() + 1
     first = minval(station)
     if (maxval(station) - first > pad%whole%order) first = minval(station, station > pad%whole%order) ! it closes the ring
-    phase = (pad%whole%station_angle(first) - pad%whole%station_angle(1))/turn*real(scene%grooves%count, wp) + rounding
-    lies = modulo(phase, 1.0_wp) < 1.0_wp - scene%grooves%ridge_part
+    phase = (pad%whole%station_angle(first) - pad%whole%station_angle(1))/turn*real(grooves%count, wp) + rounding
+    lies = modulo(phase, 1.0_wp) < 1.0_wp - grooves%ridge_part
   end function lies_in_groove
 
   !> Gives a bearing, whose foils can take them, the numbers of a scene that do not move its meshes: of film, gas, bore,
