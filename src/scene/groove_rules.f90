@@ -53,6 +53,8 @@ contains
       call keys%rule(groove_group, 'model', model%foil%is_known() .and. .not. &
                      (model%has_local_springs() .or. .not. model%foil%deflects), "needs foil = "// &
                      "'rigid', or 'elastic_foundation' with foundation_pressure = 'local'")
+      call keys%rule(groove_group, 'model', scene%shaft_contact%present, 'must be narrow '// &
+                     'beside &shaft_contact')
       call keys%rule(groove_group, 'model', scene%feed%present, 'must be '// &
                      "'narrow' beside &feed: lines of the mesh follow the grooves")
     end associate

@@ -34,6 +34,8 @@ module gfb_bearing_builder
   use gfb_feed_builder, only: find_feed, take_feed_numbers
   use gfb_film_refinement, only: refine_at_holes, meet_bands, lay_along_grooves
   use gfb_groove_case, only: groove_case_type
+  use gfb_groove_film, only: groove_type
+  use gfb_solid_contact, only: solid_contact_type, contact_left
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
@@ -364,6 +366,7 @@ contains
         end if
         call pad%film%put(gap_part_type(name='interference', level=scene%bearing%interference))
         if (grooves%present) call put_grooves(grooves, pad)
+        if (grooves%present .and. scene%shaft_contact%present) call share_contact(grooves, scene%shaft_contact, pad)
         pad%film%law = scene%gas%law
         pad%contact = scene%shaft_contact
       end associate
@@ -394,6 +397,33 @@ contains
     end associate
     call pad%film%put(part)
   end subroutine put_grooves
+
+  !> What narrow grooves leave of the asperities' pressure at a pad's nodes: that of ridges and of the deeper grooves, over that of a
+  !> smooth surface; at the end of a band the mean by the lengths on both sides.
+  pure subroutine share_contact(grooves, contact, pad)
+    type(groove_case_type), intent(in) :: grooves
+    type(solid_contact_type), intent(in) :: contact !! whose pressure falls exponentially with the gap
+    type(pad_type), intent(inout) :: pad
+    real(wp) :: of_row(pad%whole%rows()), length(2), share(2)
+    type(groove_type) :: groove
+    integer :: row, k
+
+    associate (rows => pad%whole%row_axial)
+      do row = 1, size(rows)
+        length = 0.0_wp
+        share = 0.0_wp
+        do k = max(1, row - 1), min(size(rows) - 1, row)
+          associate (side => k - row + 2)
+            length(side) = rows(k + 1) - rows(k)
+            groove = grooves%groove_at(0.5_wp*(rows(k) + rows(k + 1)))
+            share(side) = contact_left(contact, groove%share, groove%depth)
+          end associate
+        end do
+        of_row(row) = dot_product(length, share)/sum(length)
+      end do
+      pad%contact_share = of_row(modulo(pad%mesh%mesh_node - 1, size(rows)) + 1)
+    end associate
+  end subroutine share_contact
 
   !> Whether an element lies in a groove: the first one begins at the first station, its ridge follows.
   pure logical function lies_in_groove(grooves, pad, element) result(lies)
