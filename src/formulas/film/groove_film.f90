@@ -47,7 +47,6 @@ module gfb_groove_film
     real(wp) :: mobility(3, 3) = 0.0_wp !! (list, xx xz zz) of r K/(12 mu) [Pa m3/(Pa s)]
     real(wp) :: shear(3, 2) = 0.0_wp    !! (list, x z) of S [m]
     real(wp) :: gas(3) = 0.0_wp         !! r [Pa]
-    real(wp) :: drag(3) = 0.0_wp        !! of what the shaft's motion alone brakes with, over 2 U [Pa s/m]
   end type pattern_type
 
 contains
@@ -100,7 +99,8 @@ contains
     real(wp), intent(out) :: by_pressure(:, :) !! (nodes, nodes) dr_a/dp_b [m3/s]
     real(wp), intent(out) :: by_gap(:, :)      !! (nodes, nodes) dr_a/dh_b [Pa m2/s]
     real(wp), intent(out) :: by_excess(:, :)   !! (nodes, points) [Pa m2/s]
-    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux_p(2), flux_h(2), speed, moved(size(gap), 2)
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux_p(2), flux_h(2), speed
+    real(wp) :: moved(size(gap), 2), driven(size(gap))
     type(pattern_type) :: here
     integer :: i, b
 
@@ -119,10 +119,11 @@ contains
           moved(:, 1) = area*(k(1)*gradient(1, :) + k(2)*gradient(2, :))
           moved(:, 2) = area*(k(2)*gradient(1, :) + k(3)*gradient(2, :))
         end associate
+        driven = area*(flux_p(1)*gradient(1, :) + flux_p(2)*gradient(2, :))
         by_excess(:, i) = area*(flux_h(1)*gradient(1, :) + flux_h(2)*gradient(2, :))
         do b = 1, size(gap)
           by_pressure(:, b) = by_pressure(:, b) + gradient(1, b)*moved(:, 1) + gradient(2, b)*moved(:, 2) &
-            + area*shape(b)*(flux_p(1)*gradient(1, :) + flux_p(2)*gradient(2, :))
+            + shape(b)*driven
           by_gap(:, b) = by_gap(:, b) + shape(b)*by_excess(:, i)
         end do
       end associate
@@ -146,16 +147,20 @@ contains
     real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
     real(wp) :: shapes(size(gap), size(gap)), slope(2), speed
     type(pattern_type) :: here
+    real(wp) :: drive(3), p, h
     integer :: i
 
     shapes = film_shapes(size(gap))
     drag = 0.0_wp
     do i = 1, size(gap)
-      here = pattern_at(law, without_end(groove), dot_product(shapes(:, i), pressure), dot_product(shapes(:, i), gap) + excess(i))
+      p = dot_product(shapes(:, i), pressure)
+      h = dot_product(shapes(:, i), gap) + excess(i)
+      here = pattern_at(law, without_end(groove), p, h)
+      drive = drag_at(law, groove, p, h)
       speed = geometry%stretch(i)*flow%entraining_speed
       slope = matmul(geometry%gradient(:, :, i), pressure - pressure(1))
       drag = drag + geometry%area(i)*geometry%stretch(i)* &
-             (2.0_wp*speed*here%drag(value) + 0.5_wp*dot_product(here%shear(value, :), slope))
+             (2.0_wp*speed*drive(value) + 0.5_wp*dot_product(here%shear(value, :), slope))
     end do
   end function groove_friction
 
@@ -171,6 +176,7 @@ contains
     real(wp), intent(out) :: by_pressure(:), by_gap(:) !! one a node [N/Pa], [N/m]
     real(wp) :: shapes(size(gap), size(gap)), slope(2), speed
     type(pattern_type) :: here
+    real(wp) :: drive(3), p, h
     integer :: i
 
     shapes = film_shapes(size(gap))
@@ -178,12 +184,15 @@ contains
     by_gap = 0.0_wp
     do i = 1, size(gap)
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), area => geometry%area(i)*geometry%stretch(i))
-        here = pattern_at(law, without_end(groove), dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+        p = dot_product(shape, pressure)
+        h = dot_product(shape, gap) + excess(i)
+        here = pattern_at(law, without_end(groove), p, h)
+        drive = drag_at(law, groove, p, h)
         speed = geometry%stretch(i)*flow%entraining_speed
         slope = matmul(gradient, pressure - pressure(1))
         by_pressure = by_pressure + area*(0.5_wp*matmul(here%shear(value, :), gradient) &
-          + (2.0_wp*speed*here%drag(by_p) + 0.5_wp*dot_product(here%shear(by_p, :), slope))*shape)
-        by_gap = by_gap + area*(2.0_wp*speed*here%drag(by_h) + 0.5_wp*dot_product(here%shear(by_h, :), slope))*shape
+          + (2.0_wp*speed*drive(by_p) + 0.5_wp*dot_product(here%shear(by_p, :), slope))*shape)
+        by_gap = by_gap + area*(2.0_wp*speed*drive(by_h) + 0.5_wp*dot_product(here%shear(by_h, :), slope))*shape
       end associate
     end do
   end subroutine groove_friction_rates
@@ -209,50 +218,84 @@ contains
     type(groove_type), intent(in) :: groove
     real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
     type(gas_state_type) :: gas
-    real(wp), dimension(3) :: fluid, viscosity, open, h, over_open, entrained
-    real(wp), dimension(3) :: resistance, conductance, lag, dragged, squared, across, height, couette
-    real(wp) :: share(2), sine, cosine
-    integer :: i
+    real(wp), dimension(3) :: fluid, conductance, across, lag, height
+    real(wp) :: sine, cosine
 
     gas = gas_state(law, pressure)
-    viscosity = [gas%mu, gas%mu_p, 0.0_wp]
     here%gas = [gas%r, gas%r_p, 0.0_wp]
-    fluid = over(here%gas, 12.0_wp*viscosity)
-    share = [1.0_wp - groove%share, groove%share]
-    resistance = 0.0_wp
-    conductance = 0.0_wp
-    dragged = 0.0_wp
-    squared = 0.0_wp
-    height = 0.0_wp
-    couette = 0.0_wp
-    do i = 1, 2
-      h = [gap + merge(groove%depth, 0.0_wp, i == 2), 0.0_wp, 1.0_wp]
-      open = conductance_of(law, pressure, h(value))
-      over_open = over([1.0_wp, 0.0_wp, 0.0_wp], open)
-      entrained = times(h, over_open)
-      resistance = resistance + share(i)*over_open
-      conductance = conductance + share(i)*open
-      dragged = dragged + share(i)*entrained
-      squared = squared + share(i)*times(h, entrained)
-      height = height + share(i)*h
-      couette = couette + share(i)*over([1.0_wp, 0.0_wp, 0.0_wp], slipping(law, pressure, h(value)))
-    end do
-    across = over([1.0_wp, 0.0_wp, 0.0_wp], resistance)
-    lag = over(dragged, resistance)
+    fluid(value) = gas%r/(12.0_wp*gas%mu)
+    fluid(by_p:) = [(gas%r_p/12.0_wp - fluid(value)*gas%mu_p)/gas%mu, 0.0_wp]
+    call weigh_pieces(law, groove, pressure, gap, across, conductance, lag, height)
     cosine = groove%along(1)
     sine = groove%along(2)
     here%mobility(:, 1) = times(fluid, across*sine**2 + conductance*cosine**2)
-    here%mobility(:, 2) = times(fluid, conductance - across)*sine*cosine
+    here%mobility(:, 2) = times(fluid, conductance - across)*(sine*cosine)
     here%mobility(:, 3) = times(fluid, across*cosine**2 + conductance*sine**2)
     here%shear(:, 1) = lag*sine**2 + height*cosine**2
-    here%shear(:, 2) = (height - lag)*sine*cosine
+    here%shear(:, 2) = (height - lag)*(sine*cosine)
     if (groove%turns) then
       here%shear = -here%shear
       here%shear(:, 1) = here%shear(:, 1) + 2.0_wp*height
     end if
     if (groove%spread > 0.0_wp) call add_end(groove, gap, across*cosine**2 + conductance*sine**2, here)
-    here%drag = times(viscosity, couette + 3.0_wp*sine**2*(squared - times(lag, dragged)))
   end function pattern_at
+
+  !> K_n, K_t, H_n, H_t of groove and ridge.
+  pure subroutine weigh_pieces(law, groove, pressure, gap, across, conductance, lag, height)
+    type(gas_law_type), intent(in) :: law
+    type(groove_type), intent(in) :: groove
+    real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
+    real(wp), intent(out) :: across(3), conductance(3) !! [m3]
+    real(wp), intent(out) :: lag(3), height(3)         !! [m]
+    real(wp) :: open(3, 2), share(2), closed(2), h(2), resistance(3), dragged(3)
+    integer :: i
+
+    share = [1.0_wp - groove%share, groove%share]
+    h = [gap, gap + groove%depth]
+    resistance = 0.0_wp
+    dragged = 0.0_wp
+    do i = 1, 2
+      open(:, i) = conductance_of(law, pressure, h(i))
+      closed(i) = 1.0_wp/open(value, i)
+      associate (of_open => share(i)*closed(i), part => share(i)*closed(i)**2)
+        resistance = resistance + [of_open, -part*open(by_p, i), -part*open(by_h, i)]
+        dragged = dragged + [of_open*h(i), -part*h(i)*open(by_p, i), of_open - part*h(i)*open(by_h, i)]
+      end associate
+    end do
+    conductance = share(1)*open(:, 1) + share(2)*open(:, 2)
+    height = [gap + mean_depth(groove), 0.0_wp, 1.0_wp]
+    across(value) = 1.0_wp/resistance(value)
+    across(by_p:) = -across(value)**2*resistance(by_p:)
+    lag = times(dragged, across)
+  end subroutine weigh_pieces
+
+  !> What the shaft's motion alone brakes with, over 2 U [Pa s/m].
+  pure function drag_at(law, groove, pressure, gap) result(drag)
+    type(gas_law_type), intent(in) :: law
+    type(groove_type), intent(in) :: groove
+    real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
+    real(wp) :: drag(3)
+    real(wp), parameter :: one(3) = [1.0_wp, 0.0_wp, 0.0_wp]
+    real(wp), dimension(3) :: h, entrained, dragged, squared, couette, across, conductance, lag, height
+    type(gas_state_type) :: gas
+    real(wp) :: share(2)
+    integer :: i
+
+    gas = gas_state(law, pressure)
+    call weigh_pieces(law, groove, pressure, gap, across, conductance, lag, height)
+    share = [1.0_wp - groove%share, groove%share]
+    dragged = 0.0_wp
+    squared = 0.0_wp
+    couette = 0.0_wp
+    do i = 1, 2
+      h = [gap + merge(groove%depth, 0.0_wp, i == 2), 0.0_wp, 1.0_wp]
+      entrained = over(h, conductance_of(law, pressure, h(value)))
+      dragged = dragged + share(i)*entrained
+      squared = squared + share(i)*times(h, entrained)
+      couette = couette + share(i)*over(one, slipping(law, pressure, h(value)))
+    end do
+    drag = times([gas%mu, gas%mu_p, 0.0_wp], couette + 3.0_wp*groove%along(2)**2*(squared - times(lag, dragged)))
+  end function drag_at
 
   !> Adds the jump at a band's end to the slope in its strip.
   !>

@@ -50,7 +50,11 @@ contains
       mesh%station_angle = [(pitch*(real(i, wp) + part), i=0, grooves%count - 1)]
       rows = pad_rows(scene%bearing)
       bound = [rows(1), grooves%row_ends(rows), rows(2)]
-      if (mesh%half) bound = [0.0_wp, pack(bound, bound > near*rows(2))]
+      ! Both halves of a width that mirrors are meshed as the half alone would be.
+      if (rows(1) < 0.0_wp .and. grooves%mirrors()) then
+        bound = [0.0_wp, pack(bound, bound > near*rows(2))]
+        if (.not. mesh%half) bound = [-bound(size(bound):2:-1), bound]
+      end if
       mesh%row_axial = [real(wp) ::]
       do k = 1, size(bound) - 1
         associate (share => (bound(k + 1) - bound(k))/(rows(2) - rows(1)))
