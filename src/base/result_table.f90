@@ -260,7 +260,11 @@ module gfb_result_table
       'radius; over Rg T it is the mass flow'), &
     result_type('flow_high', 'Pa m^3/s', number, bearing, &
       'of gas out of the end of higher z, or radius', &
-      'the same of the end of higher z, or the outer radius')]
+      'the same of the end of higher z, or the outer radius'), &
+    result_type('groove_end_loss', '1', number, bearing, &
+      'part of the pumped pressure that the ends of bands cost', &
+      'with `model = ''narrow_with_ends''`: what the jumps at the ends of a band take off the '// &
+      'pressure, in the mean of the bands, over the pressure that would be pumped up without')]
 
   type(result_type), parameter, public :: heats(*) = [ &
     result_type('film_temperature', 'K', number, bearing, 'mean of the gas in the film', &

@@ -220,6 +220,7 @@ contains
     call add_result(list, 'pumped_pressure', grooves%pumped)
     call add_result(list, 'flow_low', grooves%flow(1))
     call add_result(list, 'flow_high', grooves%flow(2))
+    if (grooves%weighed) call add_result(list, 'groove_end_loss', grooves%end_loss)
   end subroutine add_grooves
 
   !> Adds temperatures, and where the heat goes.

@@ -35,9 +35,30 @@ contains
       call keys%rule('model', 'half_width', model%half_width == half_width_yes .and. &
                      .not. grooves%mirrors(), 'needs bands in &grooves that mirror each other '// &
                      'about z = 0, and pump against each other')
-      if (keys%mistakes() == 0) call warn_of_count(keys, scene)
+      if (grooves%are_resolved()) call check_resolved(keys, scene)
+      if (keys%mistakes() == 0 .and. .not. grooves%are_resolved()) call warn_of_count(keys, scene)
     end associate
   end subroutine check_grooves
+
+  !> Grooves are meshed where they stand still, on a ring without ends, over local springs at most.
+  subroutine check_resolved(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+
+    associate (grooves => scene%grooves, model => scene%model)
+      call keys%rule(groove_group, 'model', grooves%member /= on_sleeve .and. grooves%member > 0, &
+                     "needs on = 'sleeve': the film over grooves that turn is never steady")
+      call keys%rule(groove_group, 'model', .not. scene%bearing%is_ring(), "needs "// &
+                     "leading_edge_condition = 'periodic': lines of the mesh follow the grooves")
+      call keys%rule(groove_group, 'model', model%foil%is_known() .and. .not. &
+                     (model%has_local_springs() .or. .not. model%foil%deflects), "needs foil = "// &
+                     "'rigid', or 'elastic_foundation' with foundation_pressure = 'local'")
+      call keys%rule(groove_group, 'model', scene%shaft_contact%present, 'must be narrow '// &
+                     'beside &shaft_contact')
+      call keys%rule(groove_group, 'model', scene%feed%present, 'must be '// &
+                     "'narrow' beside &feed: lines of the mesh follow the grooves")
+    end associate
+  end subroutine check_resolved
 
   !> Warns of grooves that are too few for their limit.
   !>

@@ -135,7 +135,8 @@ contains
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)
-      call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model)
+      call read_mesh_case(keys, scene%mesh, scene%bearing, scene%bump_foil, scene%model, &
+                          scene%grooves)
       call read_solver_case(keys, scene%solver, scene%bearing, scene%shaft_contact%present, &
                             scene%model%foil%has_shell_bumps)
       call read_output_case(keys, scene%output)

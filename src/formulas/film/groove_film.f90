@@ -11,15 +11,18 @@
 !> \( S = (2 \langle h \rangle I - H) e_x \) where they turn with the shaft. Grooves on the shaft add nothing that changes in time: the
 !> pressure is steady in this frame.
 !>
+!> Near the end of a band the jump of `gfb_groove_ends` is spread over a narrow strip, where it adds to the slope along z.
+!>
 !> Source: [VohrChow1965], derived anew with the frame of the grooves, where \( w = \pm U e_x \).
 module gfb_groove_film
   use gfb_kinds, only: wp
   use gfb_film_geometry, only: film_geometry_type, film_shapes
   use gfb_film_flow, only: film_flow_type, flow_here
   use gfb_gas_law, only: gas_law_type, gas_state_type, gas_state
+  use gfb_groove_ends, only: fitted, end_open, end_jump
   implicit none (type, external)
   private
-  public :: groove_residual, groove_jacobian, groove_friction, groove_friction_rates, mean_depth
+  public :: groove_residual, groove_jacobian, groove_friction, groove_friction_rates, mean_depth, groove_jump
 
   !> The grooves of an element. Without a share there are none.
   type, public :: groove_type
@@ -27,6 +30,13 @@ module gfb_groove_film
     real(wp) :: depth = 0.0_wp      !! d [m]
     real(wp) :: along(2) = [1.0_wp, 0.0_wp] !! t, along the lines (x, z) [1]
     logical :: turns = .false.      !! they are on the shaft
+    integer :: band = 0             !! its number
+    real(wp) :: spread = 0.0_wp     !! pitch over the width on which the jump at the band's end is spread; 0: there is none [1]
+    real(wp) :: side = 1.0_wp       !! 1: the band lies behind its end, -1: before it, along z or r
+    real(wp) :: sense = 1.0_wp      !! 1: the motion pumps as in the fit, -1: against it
+    integer :: outside = end_open   !! of the band's end
+    real(wp) :: pitch = 0.0_wp      !! [m]
+    real(wp) :: fit(fitted, 2) = 0.0_wp !! see `gfb_groove_ends`
   end type groove_type
 
   ! A number that follows pressure and gap is a list: itself, its derivative by p, its derivative by h.
@@ -37,7 +47,6 @@ module gfb_groove_film
     real(wp) :: mobility(3, 3) = 0.0_wp !! (list, xx xz zz) of r K/(12 mu) [Pa m3/(Pa s)]
     real(wp) :: shear(3, 2) = 0.0_wp    !! (list, x z) of S [m]
     real(wp) :: gas(3) = 0.0_wp         !! r [Pa]
-    real(wp) :: drag(3) = 0.0_wp        !! of what the shaft's motion alone brakes with, over 2 U [Pa s/m]
   end type pattern_type
 
 contains
@@ -90,7 +99,8 @@ contains
     real(wp), intent(out) :: by_pressure(:, :) !! (nodes, nodes) dr_a/dp_b [m3/s]
     real(wp), intent(out) :: by_gap(:, :)      !! (nodes, nodes) dr_a/dh_b [Pa m2/s]
     real(wp), intent(out) :: by_excess(:, :)   !! (nodes, points) [Pa m2/s]
-    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux_p(2), flux_h(2), speed, moved(size(gap), 2)
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux_p(2), flux_h(2), speed
+    real(wp) :: moved(size(gap), 2), driven(size(gap))
     type(pattern_type) :: here
     integer :: i, b
 
@@ -109,10 +119,11 @@ contains
           moved(:, 1) = area*(k(1)*gradient(1, :) + k(2)*gradient(2, :))
           moved(:, 2) = area*(k(2)*gradient(1, :) + k(3)*gradient(2, :))
         end associate
+        driven = area*(flux_p(1)*gradient(1, :) + flux_p(2)*gradient(2, :))
         by_excess(:, i) = area*(flux_h(1)*gradient(1, :) + flux_h(2)*gradient(2, :))
         do b = 1, size(gap)
           by_pressure(:, b) = by_pressure(:, b) + gradient(1, b)*moved(:, 1) + gradient(2, b)*moved(:, 2) &
-            + area*shape(b)*(flux_p(1)*gradient(1, :) + flux_p(2)*gradient(2, :))
+            + shape(b)*driven
           by_gap(:, b) = by_gap(:, b) + shape(b)*by_excess(:, i)
         end do
       end associate
@@ -136,16 +147,20 @@ contains
     real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
     real(wp) :: shapes(size(gap), size(gap)), slope(2), speed
     type(pattern_type) :: here
+    real(wp) :: drive(3), p, h
     integer :: i
 
     shapes = film_shapes(size(gap))
     drag = 0.0_wp
     do i = 1, size(gap)
-      here = pattern_at(law, groove, dot_product(shapes(:, i), pressure), dot_product(shapes(:, i), gap) + excess(i))
+      p = dot_product(shapes(:, i), pressure)
+      h = dot_product(shapes(:, i), gap) + excess(i)
+      here = pattern_at(law, without_end(groove), p, h)
+      drive = drag_at(law, groove, p, h)
       speed = geometry%stretch(i)*flow%entraining_speed
       slope = matmul(geometry%gradient(:, :, i), pressure - pressure(1))
       drag = drag + geometry%area(i)*geometry%stretch(i)* &
-             (2.0_wp*speed*here%drag(value) + 0.5_wp*dot_product(here%shear(value, :), slope))
+             (2.0_wp*speed*drive(value) + 0.5_wp*dot_product(here%shear(value, :), slope))
     end do
   end function groove_friction
 
@@ -161,6 +176,7 @@ contains
     real(wp), intent(out) :: by_pressure(:), by_gap(:) !! one a node [N/Pa], [N/m]
     real(wp) :: shapes(size(gap), size(gap)), slope(2), speed
     type(pattern_type) :: here
+    real(wp) :: drive(3), p, h
     integer :: i
 
     shapes = film_shapes(size(gap))
@@ -168,15 +184,26 @@ contains
     by_gap = 0.0_wp
     do i = 1, size(gap)
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), area => geometry%area(i)*geometry%stretch(i))
-        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+        p = dot_product(shape, pressure)
+        h = dot_product(shape, gap) + excess(i)
+        here = pattern_at(law, without_end(groove), p, h)
+        drive = drag_at(law, groove, p, h)
         speed = geometry%stretch(i)*flow%entraining_speed
         slope = matmul(gradient, pressure - pressure(1))
         by_pressure = by_pressure + area*(0.5_wp*matmul(here%shear(value, :), gradient) &
-          + (2.0_wp*speed*here%drag(by_p) + 0.5_wp*dot_product(here%shear(by_p, :), slope))*shape)
-        by_gap = by_gap + area*(2.0_wp*speed*here%drag(by_h) + 0.5_wp*dot_product(here%shear(by_h, :), slope))*shape
+          + (2.0_wp*speed*drive(by_p) + 0.5_wp*dot_product(here%shear(by_p, :), slope))*shape)
+        by_gap = by_gap + area*(2.0_wp*speed*drive(by_h) + 0.5_wp*dot_product(here%shear(by_h, :), slope))*shape
       end associate
     end do
   end subroutine groove_friction_rates
+
+  !> A band's grooves, where its end does not count: its jump has no part in the drag.
+  pure type(groove_type) function without_end(groove) result(band)
+    type(groove_type), intent(in) :: groove
+
+    band = groove
+    band%spread = 0.0_wp
+  end function without_end
 
   !> A symmetric tensor (xx, xz, zz) times a slope.
   pure function flux_of(tensor, slope) result(flux)
@@ -191,49 +218,141 @@ contains
     type(groove_type), intent(in) :: groove
     real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
     type(gas_state_type) :: gas
-    real(wp), dimension(3) :: fluid, viscosity, open, h, over_open, entrained
-    real(wp), dimension(3) :: resistance, conductance, lag, dragged, squared, across, height, couette
-    real(wp) :: share(2), sine, cosine
-    integer :: i
+    real(wp), dimension(3) :: fluid, conductance, across, lag, height
+    real(wp) :: sine, cosine
 
     gas = gas_state(law, pressure)
-    viscosity = [gas%mu, gas%mu_p, 0.0_wp]
     here%gas = [gas%r, gas%r_p, 0.0_wp]
-    fluid = over(here%gas, 12.0_wp*viscosity)
-    share = [1.0_wp - groove%share, groove%share]
-    resistance = 0.0_wp
-    conductance = 0.0_wp
-    dragged = 0.0_wp
-    squared = 0.0_wp
-    height = 0.0_wp
-    couette = 0.0_wp
-    do i = 1, 2
-      h = [gap + merge(groove%depth, 0.0_wp, i == 2), 0.0_wp, 1.0_wp]
-      open = conductance_of(law, pressure, h(value))
-      over_open = over([1.0_wp, 0.0_wp, 0.0_wp], open)
-      entrained = times(h, over_open)
-      resistance = resistance + share(i)*over_open
-      conductance = conductance + share(i)*open
-      dragged = dragged + share(i)*entrained
-      squared = squared + share(i)*times(h, entrained)
-      height = height + share(i)*h
-      couette = couette + share(i)*over([1.0_wp, 0.0_wp, 0.0_wp], slipping(law, pressure, h(value)))
-    end do
-    across = over([1.0_wp, 0.0_wp, 0.0_wp], resistance)
-    lag = over(dragged, resistance)
+    fluid(value) = gas%r/(12.0_wp*gas%mu)
+    fluid(by_p:) = [(gas%r_p/12.0_wp - fluid(value)*gas%mu_p)/gas%mu, 0.0_wp]
+    call weigh_pieces(law, groove, pressure, gap, across, conductance, lag, height)
     cosine = groove%along(1)
     sine = groove%along(2)
     here%mobility(:, 1) = times(fluid, across*sine**2 + conductance*cosine**2)
-    here%mobility(:, 2) = times(fluid, conductance - across)*sine*cosine
+    here%mobility(:, 2) = times(fluid, conductance - across)*(sine*cosine)
     here%mobility(:, 3) = times(fluid, across*cosine**2 + conductance*sine**2)
     here%shear(:, 1) = lag*sine**2 + height*cosine**2
-    here%shear(:, 2) = (height - lag)*sine*cosine
+    here%shear(:, 2) = (height - lag)*(sine*cosine)
     if (groove%turns) then
       here%shear = -here%shear
       here%shear(:, 1) = here%shear(:, 1) + 2.0_wp*height
     end if
-    here%drag = times(viscosity, couette + 3.0_wp*sine**2*(squared - times(lag, dragged)))
+    if (groove%spread > 0.0_wp) call add_end(groove, gap, across*cosine**2 + conductance*sine**2, here)
   end function pattern_at
+
+  !> K_n, K_t, H_n, H_t of groove and ridge.
+  pure subroutine weigh_pieces(law, groove, pressure, gap, across, conductance, lag, height)
+    type(gas_law_type), intent(in) :: law
+    type(groove_type), intent(in) :: groove
+    real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
+    real(wp), intent(out) :: across(3), conductance(3) !! [m3]
+    real(wp), intent(out) :: lag(3), height(3)         !! [m]
+    real(wp) :: open(3, 2), share(2), closed(2), h(2), resistance(3), dragged(3)
+    integer :: i
+
+    share = [1.0_wp - groove%share, groove%share]
+    h = [gap, gap + groove%depth]
+    resistance = 0.0_wp
+    dragged = 0.0_wp
+    do i = 1, 2
+      open(:, i) = conductance_of(law, pressure, h(i))
+      closed(i) = 1.0_wp/open(value, i)
+      associate (of_open => share(i)*closed(i), part => share(i)*closed(i)**2)
+        resistance = resistance + [of_open, -part*open(by_p, i), -part*open(by_h, i)]
+        dragged = dragged + [of_open*h(i), -part*h(i)*open(by_p, i), of_open - part*h(i)*open(by_h, i)]
+      end associate
+    end do
+    conductance = share(1)*open(:, 1) + share(2)*open(:, 2)
+    height = [gap + mean_depth(groove), 0.0_wp, 1.0_wp]
+    across(value) = 1.0_wp/resistance(value)
+    across(by_p:) = -across(value)**2*resistance(by_p:)
+    lag = times(dragged, across)
+  end subroutine weigh_pieces
+
+  !> What the shaft's motion alone brakes with, over 2 U [Pa s/m].
+  pure function drag_at(law, groove, pressure, gap) result(drag)
+    type(gas_law_type), intent(in) :: law
+    type(groove_type), intent(in) :: groove
+    real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
+    real(wp) :: drag(3)
+    real(wp), parameter :: one(3) = [1.0_wp, 0.0_wp, 0.0_wp]
+    real(wp), dimension(3) :: h, entrained, dragged, squared, couette, across, conductance, lag, height
+    type(gas_state_type) :: gas
+    real(wp) :: share(2)
+    integer :: i
+
+    gas = gas_state(law, pressure)
+    call weigh_pieces(law, groove, pressure, gap, across, conductance, lag, height)
+    share = [1.0_wp - groove%share, groove%share]
+    dragged = 0.0_wp
+    squared = 0.0_wp
+    couette = 0.0_wp
+    do i = 1, 2
+      h = [gap + merge(groove%depth, 0.0_wp, i == 2), 0.0_wp, 1.0_wp]
+      entrained = over(h, conductance_of(law, pressure, h(value)))
+      dragged = dragged + share(i)*entrained
+      squared = squared + share(i)*times(h, entrained)
+      couette = couette + share(i)*over(one, slipping(law, pressure, h(value)))
+    end do
+    drag = times([gas%mu, gas%mu_p, 0.0_wp], couette + 3.0_wp*groove%along(2)**2*(squared - times(lag, dragged)))
+  end function drag_at
+
+  !> Adds the jump at a band's end to the slope in its strip.
+  !>
+  !> There the band's own slope is \( p_z - \sigma J/w \) with the jump J, the strip's width w and the side \( \sigma \) of the band.
+  !> J is linear in the flow across, so that \( q_z/r \) has the factor \( D = 1/(1 - c_2 K_{zz} l/(w h^3)) \), and a shear of its own.
+  pure subroutine add_end(groove, gap, open, here)
+    type(groove_type), intent(in) :: groove
+    real(wp), intent(in) :: gap     !! h [m]
+    real(wp), intent(in) :: open(3) !! K_zz [m3]
+    type(pattern_type), intent(inout) :: here !! of the band
+    real(wp) :: numbers(2), by_gap(2), factor(3), share(3), before(3), turned(3), own(3)
+    real(wp), parameter :: one(3) = [1.0_wp, 0.0_wp, 0.0_wp]
+
+    call end_jump(groove%fit, groove%outside, groove%depth, gap, numbers, by_gap)
+    factor = groove%spread*[numbers(2)/gap**3, 0.0_wp, by_gap(2)/gap**3 - 3.0_wp*numbers(2)/gap**4]
+    factor = over(one, one - times(factor, open))
+    own = groove%side*groove%sense*groove%spread* &
+          [numbers(1)/gap**2, 0.0_wp, by_gap(1)/gap**2 - 2.0_wp*numbers(1)/gap**3]
+    before = here%shear(:, 2)
+    here%shear(:, 2) = times(factor, before + times(own, open))
+    share = over(here%mobility(:, 2), here%mobility(:, 3)) ! K_xz over K_zz
+    here%shear(:, 1) = here%shear(:, 1) + times(share, here%shear(:, 2) - before)
+    turned = times(factor - one, here%mobility(:, 2))
+    here%mobility(:, 1) = here%mobility(:, 1) + times(share, turned)
+    here%mobility(:, 2) = here%mobility(:, 2) + turned
+    here%mobility(:, 3) = times(factor, here%mobility(:, 3))
+  end subroutine add_end
+
+  !> The jump of the pressure at a band's end, into the band, times the area of an element of its strip [N].
+  pure real(wp) function groove_jump(geometry, flow, law, groove, pressure, gap, excess) result(jump)
+    type(film_geometry_type), intent(in) :: geometry !! of the element
+    type(film_flow_type), intent(in) :: flow !! speed of the film
+    type(gas_law_type), intent(in) :: law    !! of the gas
+    type(groove_type), intent(in) :: groove  !! of the element
+    real(wp), intent(in) :: pressure(:) !! at the nodes [Pa]
+    real(wp), intent(in) :: gap(:)      !! of the ridges at the nodes [m]
+    real(wp), intent(in) :: excess(:)   !! of the gap at the points over the nodes' [m]
+    real(wp) :: shapes(size(gap), size(gap)), slope(2), flux(2), speed, h, p, numbers(2), by_gap(2)
+    type(pattern_type) :: here
+    type(gas_state_type) :: gas
+    integer :: i
+
+    shapes = film_shapes(size(gap))
+    jump = 0.0_wp
+    do i = 1, size(gap)
+      p = dot_product(shapes(:, i), pressure)
+      h = dot_product(shapes(:, i), gap) + excess(i)
+      here = pattern_at(law, groove, p, h)
+      gas = gas_state(law, p)
+      speed = geometry%stretch(i)*flow%entraining_speed
+      slope = matmul(geometry%gradient(:, :, i), pressure - pressure(1))
+      flux = speed*here%gas(value)*here%shear(value, :) - flux_of(here%mobility(value, :), slope)
+      call end_jump(groove%fit, groove%outside, groove%depth, h, numbers, by_gap)
+      jump = jump + geometry%area(i)*groove%pitch*12.0_wp*gas%mu/h**2* &
+             (groove%sense*numbers(1)*speed + numbers(2)*groove%side*flux(2)/(gas%r*h))
+    end do
+  end function groove_jump
 
   !> G, what is open to a flow of pressure [m3].
   pure function conductance_of(law, pressure, gap) result(open)

@@ -13,7 +13,7 @@ module gfb_solid_contact
   use gfb_kinds, only: wp
   implicit none (type, external)
   private
-  public :: contact_pressure, contact_pressure_rate
+  public :: contact_pressure, contact_pressure_rate, contact_left
 
   !> The rough surfaces; without roughness they never touch.
   type, public :: solid_contact_type
@@ -42,4 +42,14 @@ contains
     rate = 0.0_wp
     if (contact%present) rate = -contact_pressure(contact, gap)/contact%roughness
   end function contact_pressure_rate
+
+  !> Part of the pressure that grooves of a share g and a depth d leave, \( 1 - g + g e^{-d/\sigma} \) at every gap [1].
+  elemental real(wp) function contact_left(contact, share, depth) result(left)
+    type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
+    real(wp), intent(in) :: share !! g, of the groove in the pattern [1]
+    real(wp), intent(in) :: depth !! d [m]
+
+    left = 1.0_wp
+    if (share > 0.0_wp) left = 1.0_wp - share + share*exp(-depth/contact%roughness)
+  end function contact_left
 end module gfb_solid_contact

@@ -12,7 +12,7 @@ module gfb_bearing
   use gfb_natural_order, only: natural_order_type
   use gfb_contact_path, only: begin_contact_path, next_contact, switch_contact, never
   use gfb_petsc_session, only: this_rank, rank_count, sum_over_ranks, largest_over_ranks
-  use gfb_solid_contact, only: solid_contact_type, contact_pressure
+  use gfb_solid_contact, only: solid_contact_type
   use gfb_film_load, only: film_forces
   use gfb_film_mesh, only: film_mesh_type
   use gfb_film_surface, only: shaft_coordinates, translations
@@ -158,7 +158,7 @@ module gfb_bearing
     procedure, non_overridable :: has_contacts
     procedure, non_overridable :: gap => bearing_gap
     procedure, non_overridable :: modulus => bearing_modulus
-    procedure, non_overridable :: solid_pressure
+    procedure, non_overridable :: solid_pressure, solid_rate
     procedure, non_overridable :: position => bearing_position
     procedure, non_overridable :: eccentricity => bearing_eccentricity
     procedure, non_overridable :: shaft_place
@@ -463,10 +463,24 @@ contains
     gap = self%gap(unknown)
     do i = 1, size(self%pad)
       associate (first => self%pad(i)%first_node + 1, last => self%pad(i)%last_node)
-        pressure(first:last) = contact_pressure(self%pad(i)%contact, gap(first:last))
+        pressure(first:last) = self%pad(i)%solid_pressure(gap(first:last))
       end associate
     end do
   end function solid_pressure
+
+  !> Its derivative by the gap [Pa/m].
+  pure function solid_rate(self, gap) result(rate)
+    class(bearing_type), intent(in) :: self !! the bearing
+    real(wp), intent(in) :: gap(:) !! at this rank's film nodes, pad by pad [m]
+    real(wp) :: rate(size(gap))
+    integer :: i
+
+    do i = 1, size(self%pad)
+      associate (first => self%pad(i)%first_node + 1, last => self%pad(i)%last_node)
+        rate(first:last) = self%pad(i)%solid_rate(gap(first:last))
+      end associate
+    end do
+  end function solid_rate
 
   !> The operating point with the shaft's position that is found or fixed.
   pure function bearing_position(self, unknown, asked) result(point)

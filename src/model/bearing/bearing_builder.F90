@@ -32,8 +32,10 @@ module gfb_bearing_builder
   use gfb_heat_switch, only: follow_frozen
   use gfb_changed_foil, only: take_foil_numbers
   use gfb_feed_builder, only: find_feed, take_feed_numbers
-  use gfb_film_refinement, only: refine_at_holes, meet_bands
+  use gfb_film_refinement, only: refine_at_holes, meet_bands, lay_along_grooves
+  use gfb_groove_case, only: groove_case_type
   use gfb_groove_film, only: groove_type
+  use gfb_solid_contact, only: solid_contact_type, contact_left
   use gfb_foil_model, only: foil_model_type, create_rigid_foil
   use gfb_scene_point, only: operating_point
   use gfb_cost_events, only: enter_stage, leave_stage
@@ -43,7 +45,7 @@ module gfb_bearing_builder
   use gfb_heated_film, only: heated_gas_type
   use gfb_bearing_heat, only: film_heat_type, wall_type
   use gfb_thermal_case, only: foil_sheet
-  use gfb_pad, only: pad_place_type, create_pad_film, shift_pad, move_crests
+  use gfb_pad, only: pad_type, pad_place_type, create_pad_film, shift_pad, move_crests
   use gfb_bearing_system, only: bearing_system_type, create_bearing_system
   use gfb_mesh_case, only: linear_solver_iterative
   use gfb_mesh_dm, only: local_mesh_type
@@ -346,8 +348,11 @@ contains
     type(scene_type), intent(in) :: scene
     type(bearing_system_type), intent(inout) :: bearing
     type(gap_shape_item_type), allocatable :: shape(:)
+    type(groove_case_type) :: grooves
     integer :: i, k
 
+    grooves = scene%grooves
+    call grooves%weigh_ends()
     bearing%asperities = scene%shaft_contact
     call take_feed_numbers(scene, bearing)
     do i = 1, size(bearing%pad)
@@ -360,29 +365,81 @@ contains
           call put_strips(scene%model%cut_radii, scene%model%strip_stiffness, pad%foil%rate, pad%film)
         end if
         call pad%film%put(gap_part_type(name='interference', level=scene%bearing%interference))
-        if (scene%grooves%present) call put_grooves(scene, pad%film)
+        if (grooves%present) call put_grooves(grooves, pad)
+        if (grooves%present .and. scene%shaft_contact%present) call share_contact(grooves, scene%shaft_contact, pad)
         pad%film%law = scene%gas%law
         pad%contact = scene%shaft_contact
       end associate
     end do
   end subroutine take_film_numbers
 
-  !> Grooves of a film's elements, each of which lies in one band or between two.
-  subroutine put_grooves(scene, film)
-    type(scene_type), intent(in) :: scene
-    type(gas_film_type), intent(inout) :: film !! this rank's
+  !> Grooves of a film's elements, each of which lies in one band or between two; where each groove is meshed, in one or on a ridge.
+  subroutine put_grooves(grooves, pad)
+    type(groove_case_type), intent(in) :: grooves !! whose ends are weighed
+    type(pad_type), intent(inout) :: pad
     type(gap_part_type) :: part
+    real(wp) :: middle
     integer :: element
 
     part%name = 'grooves'
-    allocate (part%groove(size(film%element_nodes, 2)))
-    do element = 1, size(part%groove)
-      associate (along => film%axial(film%element_nodes(:, element)))
-        part%groove(element) = scene%grooves%groove_at(0.5_wp*(minval(along) + maxval(along)))
-      end associate
-    end do
-    call film%put(part)
+    associate (film => pad%film)
+      allocate (part%groove(size(film%element_nodes, 2)))
+      if (grooves%are_resolved()) part%excess = spread(0.0_wp*film%shape(1, :), 2, size(part%groove))
+      do element = 1, size(part%groove)
+        associate (nodes => film%element_nodes(:, element))
+          middle = 0.5_wp*(minval(film%axial(nodes)) + maxval(film%axial(nodes)))
+          part%groove(element) = grooves%groove_at(middle)
+          if (.not. grooves%are_resolved()) cycle
+          if (.not. abs(grooves%line_angle(middle)) > 0.0_wp) cycle
+          if (lies_in_groove(grooves, pad, element)) part%excess(:, element) = -grooves%depth
+        end associate
+      end do
+    end associate
+    call pad%film%put(part)
   end subroutine put_grooves
+
+  !> What narrow grooves leave of the asperities' pressure at a pad's nodes: that of ridges and of the deeper grooves, over that of a
+  !> smooth surface; at the end of a band the mean by the lengths on both sides.
+  pure subroutine share_contact(grooves, contact, pad)
+    type(groove_case_type), intent(in) :: grooves
+    type(solid_contact_type), intent(in) :: contact !! whose pressure falls exponentially with the gap
+    type(pad_type), intent(inout) :: pad
+    real(wp) :: of_row(pad%whole%rows()), length(2), share(2)
+    type(groove_type) :: groove
+    integer :: row, k
+
+    associate (rows => pad%whole%row_axial)
+      do row = 1, size(rows)
+        length = 0.0_wp
+        share = 0.0_wp
+        do k = max(1, row - 1), min(size(rows) - 1, row)
+          associate (side => k - row + 2)
+            length(side) = rows(k + 1) - rows(k)
+            groove = grooves%groove_at(0.5_wp*(rows(k) + rows(k + 1)))
+            share(side) = contact_left(contact, groove%share, groove%depth)
+          end associate
+        end do
+        of_row(row) = dot_product(length, share)/sum(length)
+      end do
+      pad%contact_share = of_row(modulo(pad%mesh%mesh_node - 1, size(rows)) + 1)
+    end associate
+  end subroutine share_contact
+
+  !> Whether an element lies in a groove: the first one begins at the first station, its ridge follows.
+  pure logical function lies_in_groove(grooves, pad, element) result(lies)
+    type(groove_case_type), intent(in) :: grooves !! that are meshed
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: element !! of this rank's film
+    real(wp), parameter :: rounding = 1.0e-6_wp !! of a pitch
+    integer :: station(size(pad%film%element_nodes, 1)), first
+    real(wp) :: phase
+
+    station = (pad%mesh%mesh_node(pad%film%element_nodes(:, element)) - 1)/pad%whole%rows() + 1
+    first = minval(station)
+    if (maxval(station) - first > pad%whole%order) first = minval(station, station > pad%whole%order) ! it closes the ring
+    phase = (pad%whole%station_angle(first) - pad%whole%station_angle(1))/turn*real(grooves%count, wp) + rounding
+    lies = modulo(phase, 1.0_wp) < 1.0_wp - grooves%ridge_part
+  end function lies_in_groove
 
   !> Gives a bearing, whose foils can take them, the numbers of a scene that do not move its meshes: of film, gas, bore,
   !> asperities and contacts. What is assembled of the foils stays.
@@ -523,6 +580,7 @@ contains
     mesh%planned = [plan%circumferential, plan%axial]
     mesh%surface = surface_of(scene%bearing)
     mesh%surface%offset = 0.5_wp*plan%bearing_distance
+    if (scene%grooves%are_resolved()) call lay_along_grooves(scene, plan%axial, mesh)
 
   contains
 

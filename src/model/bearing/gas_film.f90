@@ -121,6 +121,7 @@ contains
       station = (mesh_node(i) - 1)/whole%rows() + 1
       row = mesh_node(i) - (station - 1)*whole%rows()
       film%angle(i) = whole%station_angle(station)
+      if (allocated(whole%slant)) film%angle(i) = film%angle(i) + whole%slant(row)
       film%axial(i) = whole%row_axial(row)
       film%fixed(i) = whole%is_edge(station, row)
       film%direction(:, i) = [cos(film%angle(i)), sin(film%angle(i))]

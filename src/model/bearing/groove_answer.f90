@@ -4,9 +4,11 @@ module gfb_groove_answer
   use gfb_kinds, only: wp
   use gfb_bearing, only: bearing_type
   use gfb_gas_film, only: gas_film_type
+  use gfb_groove_ends, only: end_open, end_land
+  use gfb_groove_film, only: groove_type, groove_jump
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
-  use gfb_petsc_session, only: sum_over_ranks
+  use gfb_petsc_session, only: sum_over_ranks, largest_over_ranks
   implicit none (type, external)
   private
   public :: groove_answer
@@ -16,6 +18,8 @@ module gfb_groove_answer
     logical :: present = .false.
     real(wp) :: pumped = 0.0_wp  !! largest mean over theta of p - p_a [Pa]
     real(wp) :: flow(2) = 0.0_wp !! out of the ends of lower and of higher z, or radius [Pa m3/s]
+    logical :: weighed = .false.   !! it is known what the ends of bands cost
+    real(wp) :: end_loss = 0.0_wp !! that, over the pressure that would be pumped up without [1]
   end type groove_answer_type
 
   !> Shares of an element's nodes in its length along the motion: trapezoidal rule, Simpson's.
@@ -51,6 +55,7 @@ contains
     answer%flow = sum_over_ranks(answer%flow)
     mean = reshape(sum_over_ranks(pack(mean, .true.)), shape(mean))
     answer%pumped = maxval(mean(:, 1)/mean(:, 2))
+    call read_end_loss(bearing, point, unknown, gap, answer)
   end function groove_answer
 
   !> Adds what flows out of the ends of this rank's film.
@@ -73,6 +78,56 @@ contains
     end associate
     if (bearing%mesh%half) outflow = 0.5_wp*sum(outflow)
   end subroutine add_outflows
+
+  !> What the ends of a band cost it, in the mean of all bands, where that is modelled.
+  !>
+  !> Pressure is lost where it jumps down into the band at an open end, and down to the land.
+  subroutine read_end_loss(bearing, point, unknown, gap, answer)
+    class(bearing_type), intent(in) :: bearing
+    type(operating_point_type), intent(in) :: point
+    real(wp), intent(in) :: unknown(:), gap(:)
+    type(groove_answer_type), intent(inout) :: answer
+    real(wp), allocatable :: jump(:, :, :) ! (jump times area and area, end, band)
+    type(groove_type) :: groove
+    real(wp) :: most(1), lost
+    integer :: i, k, element
+
+    most = 0.0_wp
+    do i = 1, size(bearing%pad)
+      do element = 1, size(bearing%pad(i)%film%element_nodes, 2)
+        groove = bearing%pad(i)%film%groove_of(element)
+        most = max(most, real(groove%band, wp))
+      end do
+    end do
+    most = largest_over_ranks(most)
+    if (nint(most(1)) == 0) return
+    allocate (jump(2, end_open:end_land, nint(most(1))), source=0.0_wp)
+    do i = 1, size(bearing%pad)
+      associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
+        do element = 1, size(film%element_nodes, 2)
+          groove = film%groove_of(element)
+          if (groove%band == 0) cycle
+          associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element), &
+                     excess => film%excess(element, point))
+            jump(:, groove%outside, groove%band) = jump(:, groove%outside, groove%band) + &
+              [groove_jump(geometry, film%flow_at(point), film%law, groove, unknown(pad%first + nodes), &
+                           film%element_gap(element, unknown(pad%first + 1:pad%last), &
+                                            gap(pad%first_node + 1:pad%last_node)), excess(:size(nodes))), &
+               sum(geometry%area)]
+          end associate
+        end do
+      end associate
+    end do
+    jump = reshape(sum_over_ranks(pack(jump, .true.)), shape(jump))
+    lost = 0.0_wp
+    do k = 1, size(jump, 3)
+      if (jump(2, end_open, k) > 0.0_wp) lost = lost - jump(1, end_open, k)/jump(2, end_open, k)
+      if (jump(2, end_land, k) > 0.0_wp) lost = lost + jump(1, end_land, k)/jump(2, end_land, k)
+    end do
+    lost = lost/real(count(sum(jump(2, :, :), 1) > 0.0_wp), wp)
+    answer%weighed = .true.
+    if (abs(answer%pumped + lost) > 0.0_wp) answer%end_loss = lost/(answer%pumped + lost)
+  end subroutine read_end_loss
 
   !> Adds to the integrals along the motion of each row, those of the pressure and of one.
   pure subroutine add_means(pad, pressure, mean)

@@ -21,7 +21,7 @@ module gfb_pad
   use gfb_partition, only: division_type, divide, no_chain
   use gfb_part_chains, only: film_chain, film_columns
   use gfb_film_load, only: film_forces
-  use gfb_solid_contact, only: solid_contact_type, contact_pressure
+  use gfb_solid_contact, only: solid_contact_type, contact_pressure, contact_pressure_rate
   use gfb_bump_contacts, only: contact_top
   use gfb_cost_events, only: cost_events_type
   use gfb_operating_point, only: operating_point_type
@@ -62,6 +62,8 @@ module gfb_pad
     type(local_mesh_type) :: mesh          !! this rank's share of it
     type(gas_film_type) :: film
     type(solid_contact_type) :: contact    !! of the shaft with the foil
+    !> what grooves leave of the asperities' pressure at its nodes; none: all of it [1]
+    real(wp), allocatable :: contact_share(:)
     class(foil_model_type), allocatable :: foil
     type(free_edge_type) :: edge           !! of the top foil
     real(wp), allocatable :: held(:)       !! at its nodes, a deflection that no unknown moves [m]
@@ -70,7 +72,7 @@ module gfb_pad
     integer :: first_node = 0, last_node = 0 !! the same of the film nodes of all pads
   contains
     procedure, non_overridable :: gap => pad_gap
-    procedure, non_overridable :: loading
+    procedure, non_overridable :: loading, solid_pressure, solid_rate
     procedure, non_overridable :: force => pad_force
     procedure, non_overridable :: unknown_scale, equation_scale, row_entries
   end type pad_type
@@ -384,8 +386,28 @@ contains
     real(wp) :: pressure(size(gap))
 
     pressure = unknown(:size(gap))
-    if (self%contact%present) pressure = pressure + contact_pressure(self%contact, gap)
+    if (self%contact%present) pressure = pressure + self%solid_pressure(gap)
   end function loading
+
+  !> Pressure of the asperities at this rank's nodes [Pa].
+  pure function solid_pressure(self, gap) result(pressure)
+    class(pad_type), intent(in) :: self !! the pad
+    real(wp), intent(in) :: gap(:) !! at this rank's nodes, of ridges [m]
+    real(wp) :: pressure(size(gap))
+
+    pressure = contact_pressure(self%contact, gap)
+    if (allocated(self%contact_share)) pressure = self%contact_share*pressure
+  end function solid_pressure
+
+  !> Its derivative by the gap [Pa/m].
+  pure function solid_rate(self, gap) result(rate)
+    class(pad_type), intent(in) :: self !! the pad
+    real(wp), intent(in) :: gap(:) !! at this rank's nodes, of ridges [m]
+    real(wp) :: rate(size(gap))
+
+    rate = contact_pressure_rate(self%contact, gap)
+    if (allocated(self%contact_share)) rate = self%contact_share*rate
+  end function solid_rate
 
   !> This rank's share of the force on the sleeve and the torque on the shaft [N], [N m].
   pure function pad_force(self, unknown, gap) result(force)

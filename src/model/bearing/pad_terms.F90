@@ -11,7 +11,6 @@ module gfb_pad_terms
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_solid_contact, only: contact_pressure, contact_pressure_rate
   use gfb_gas_film, only: gas_film_type
   use gfb_foil_model, only: foil_model_type
   use gfb_operating_point, only: operating_point_type
@@ -232,7 +231,7 @@ contains
     type(pad_type), intent(in) :: pad
     type(pad_state_type), intent(in) :: state
     Mat, intent(in) :: matrix
-    call add_solid_rows(pad, state, state%fixed, contact_pressure_rate(pad%contact, state%gap), matrix)
+    call add_solid_rows(pad, state, state%fixed, pad%solid_rate(state%gap), matrix)
   end subroutine asperity_jacobian
 
   !> Room for them.
@@ -303,10 +302,10 @@ contains
 
     if (.not. pad%contact%present) return
     associate (nodes => size(state%gap))
-      rate = contact_pressure_rate(pad%contact, state%gap)*pad%film%motion(coordinate, :)
+      rate = pad%solid_rate(state%gap)*pad%film%motion(coordinate, :)
       step = pad%film%ambient_pressure/max(maxval(abs(rate)), tiny(1.0_wp))
       loading = state%unknown
-      loading(:nodes) = state%unknown(:nodes) + contact_pressure(pad%contact, state%gap)
+      loading(:nodes) = state%unknown(:nodes) + pad%solid_pressure(state%gap)
       before = 0.0_wp
       call pad%foil%add_residual(loading, before)
       loading(:nodes) = loading(:nodes) + step*rate

@@ -25,6 +25,8 @@ module gfb_film_mesh
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
     !> s of the rows: z, 0 at the midplane, of a cylinder [m]
     real(wp), allocatable :: row_axial(:)
+    !> by which the stations of each row are turned, where they follow grooves; none: they are not [rad]
+    real(wp), allocatable :: slant(:)
   contains
     procedure, non_overridable :: stations => film_stations
     procedure, non_overridable :: rows => film_rows
@@ -32,6 +34,7 @@ module gfb_film_mesh
     procedure, non_overridable :: circumferential => film_circumferential
     procedure, non_overridable :: axial => film_axial
     procedure, non_overridable :: is_edge => film_is_edge
+    procedure, non_overridable :: slant_at
   end type film_mesh_type
 
 contains
@@ -241,6 +244,19 @@ contains
     end do
   end function row_weights
 
+  !> By which the stations are turned at a place across the motion, between rows in proportion [rad].
+  pure real(wp) function slant_at(self, axial) result(slant)
+    class(film_mesh_type), intent(in) :: self !! the film's mesh
+    real(wp), intent(in) :: axial !! s on the meshed width [m]
+    integer :: row
+    real(wp) :: share
+
+    slant = 0.0_wp
+    if (.not. allocated(self%slant)) return
+    call find_interval(self%row_axial, axial, row, share)
+    slant = self%slant(row) + share*(self%slant(row + 1) - self%slant(row))
+  end function slant_at
+
   !> The nodes around a point, and their bilinear shares of it.
   pure subroutine find_film_place(mesh, angle, axial, node, share)
     type(film_mesh_type), intent(in) :: mesh !! the film's mesh
@@ -248,13 +264,17 @@ contains
     real(wp), intent(in) :: axial     !! z on the meshed width [m]
     integer, intent(out) :: node(4)   !! of the whole mesh
     real(wp), intent(out) :: share(4) !! of the four nodes, adding up to one [1]
-    real(wp) :: along, across
+    real(wp) :: station, along, across
     integer :: i, j, here, next
 
+    station = angle
+    if (allocated(mesh%slant)) then ! those are rings
+      station = mesh%station_angle(1) + modulo(angle - mesh%slant_at(axial) - mesh%station_angle(1), turn)
+    end if
     if (mesh%periodic) then
-      call find_interval([mesh%station_angle, mesh%station_angle(1) + turn], angle, i, along)
+      call find_interval([mesh%station_angle, mesh%station_angle(1) + turn], station, i, along)
     else
-      call find_interval(mesh%station_angle, angle, i, along)
+      call find_interval(mesh%station_angle, station, i, along)
     end if
     call find_interval(mesh%row_axial, axial, j, across)
     here = (i - 1)*mesh%rows() + j

@@ -71,6 +71,7 @@ contains
     real(wp), allocatable :: angle(:, :)
     type(shown_field_type), allocatable :: row(:)
     real(wp), allocatable :: value(:, :)
+    real(wp) :: along
     integer :: i, first, last
     logical :: ring
 
@@ -82,6 +83,12 @@ contains
     associate (point => film%grid%point)
       ring = surface%is_ring()
       angle = point(1:1, :)/surface%radius + bearing%mesh%station_angle(1)
+      if (allocated(bearing%mesh%slant)) then
+        do i = 1, size(angle, 2)
+          along = point(3, i)
+          angle(1, i) = angle(1, i) + bearing%mesh%slant_at(merge(abs(along), along, bearing%mesh%half))
+        end do
+      end if
       do i = 1, merge(size(point, 2), 0, ring) ! a ring is no plane when it is unrolled
         point(:, i) = surface%position(angle(1, i), point(3, i))
       end do

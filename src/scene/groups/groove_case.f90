@@ -1,11 +1,14 @@
 !> `&grooves`: narrow grooves on the shaft or the sleeve, in bands of the width.
 module gfb_groove_case
   use gfb_kinds, only: wp
-  use gfb_units, only: pi
+  use gfb_units, only: pi, turn
   use gfb_analysis_row, only: analysis_row_type
-  use gfb_bearing_case, only: bearing_case_type, pad_rows
+  use gfb_bearing_case, only: bearing_case_type, pad_rows, surface_of, inner_edge_sealed
+  use gfb_errors, only: error_type
+  use gfb_film_surface, only: film_surface_type
   use gfb_case_keys, only: case_keys_type, longest_list, any_value, between, from_to, &
                            not_negative, unless
+  use gfb_groove_ends, only: fitted, end_open, end_land, fit_ends
   use gfb_groove_film, only: groove_type
   use gfb_key_effect, only: acts_on_film, acts_on_all
   use gfb_text, only: text
@@ -16,11 +19,36 @@ module gfb_groove_case
   character(len=*), parameter, public :: groove_group = 'grooves'
 
   integer, parameter, public :: on_shaft = 1, on_sleeve = 2
+  integer, parameter, public :: grooves_narrow = 1   !! infinitely many
+  integer, parameter, public :: grooves_with_ends = 2 !! and what their number costs at the ends of bands
+  integer, parameter, public :: grooves_resolved = 3 !! as many as there are
+  integer, parameter :: fewest_elements = 4 !! of a pitch
+  ! Those that give the load of the rows of two programs to 2e-3, of 8 to 48 grooves.
+  integer, parameter :: usual_elements = 12 !! of a pitch at least
+  integer, parameter :: usual_around = 192  !! of all of them at least
+  integer, parameter, public :: resolved_rows = 40 !! across the width
+  real(wp), parameter, public :: resolved_refinement = 20.0_wp !! of ridge, groove and band
   integer, parameter :: pumps_up = 1
   character(len=*), parameter :: member_words(*) = [character(len=6) :: 'shaft', 'sleeve']
+  character(len=*), parameter :: model_words(*) = [character(len=16) :: 'narrow', &
+                                                         'narrow_with_ends', 'resolved']
   character(len=*), parameter :: pumping_words(*) = [character(len=4) :: 'up', 'down']
   real(wp), parameter :: rounding = 1.0e-9_wp !! of places that are meant to be equal, relative
   real(wp), parameter :: most_grooves = 1000.0_wp
+  real(wp), parameter :: flattest = 0.05_wp, steepest = 1.5_wp !! lines of bands whose ends are weighed [rad]
+  !> Of a pitch, on which the jump at an end is spread: about as wide as the flow takes to become even.
+  real(wp), parameter :: strip_part = 0.1_wp
+  real(wp), parameter :: most_of_band = 0.2_wp !! that a strip may take
+
+  !> An end of a band, and the strip on which the jump of its pressure is spread.
+  type :: band_end_type
+    integer :: band = 0
+    real(wp) :: strip(2) = 0.0_wp !! from lower to higher z, or radius [m]
+    real(wp) :: side = 1.0_wp     !! 1: the band lies behind its end
+    integer :: outside = end_open
+    real(wp) :: pitch = 0.0_wp    !! [m]
+    real(wp) :: fit(fitted, 2) = 0.0_wp !! see `gfb_groove_ends`; 0: not weighed
+  end type band_end_type
 
   !> The grooves. Places are z, or radii of a thrust bearing.
   type :: groove_case_type
@@ -31,9 +59,12 @@ module gfb_groove_case
     real(wp) :: ridge_part = 0.5_wp   !! of the pattern [1]
     real(wp), allocatable :: band_begin(:), band_end(:) !! [m]
     integer, allocatable :: pumping(:)                  !! of each band
-    integer :: count = 0 !! grooves around; 0: their limit
+    integer :: count = 0 !! grooves around; 0: not known
+    integer :: model = grooves_narrow
+    type(band_end_type), allocatable :: end(:) !! of all bands, where they cost something
   contains
-    procedure, non_overridable :: mirrors, groove_at, row_ends
+    procedure, non_overridable :: mirrors, groove_at, row_ends, weigh_ends
+    procedure, non_overridable :: are_resolved, elements_around, line_angle
   end type groove_case_type
 
 contains
@@ -69,10 +100,25 @@ contains
     call keys%word_list_key('pumping', grooves%pumping, pumping_words, longest_list, 'of each '// &
                             'band: where the motion drives the gas, to larger or to smaller z, '// &
                             'or radius', .true.)
-    call keys%integer_key('count', grooves%count, 'grooves of a band around the shaft; they '// &
-                          'are taken as infinitely many, and this says what that leaves out', &
-                          from_to(0.0_wp, most_grooves), default='0: not known')
+    call keys%choice_key('model', grooves%model, model_words, 'what is solved: the limit of '// &
+                         'infinitely many grooves; the same with what their number costs at the '// &
+                         'ends of bands; or each of them on a mesh along its lines, on a '// &
+                         'sleeve or ring that stands still')
+    call keys%integer_key('count', grooves%count, 'grooves of a band around the shaft; in the '// &
+                          'limit they are taken as infinitely many, and this says what that '// &
+                          'leaves out', from_to(0.0_wp, most_grooves), default='0: not known')
+    call keys%rule(groove_group, 'count', grooves%model > grooves_narrow .and. &
+                   grooves%count == 0, "must be given with model = 'narrow_with_ends' or "// &
+                   "'resolved'")
+    call keys%rule(groove_group, 'angle', grooves%model == grooves_with_ends .and. &
+                   any(grooves%angle < flattest .or. grooves%angle > steepest), 'must be from '// &
+                   "0.05 to 1.5 rad with model = 'narrow_with_ends'")
+    if (grooves%are_resolved()) then
+      call keys%act_on('angle', acts_on_all)
+      call keys%act_on('ridge_part', acts_on_all)
+    end if
     if (grooves%present) call check_bands(keys, grooves, bearing)
+    if (keys%mistakes() == 0) call find_ends(grooves, bearing)
   end subroutine read_groove_case
 
   !> Bands are given alike, lie on the pad and not on each other.
@@ -142,9 +188,8 @@ contains
     end associate
   end function mirrors
 
-  !> The grooves at a place across the motion; without a share between bands.
-  !>
-  !> Lines that rise with theta drive gas up on a surface at rest, down on one that moves.
+  !> The limit of the grooves at a place across the motion; without a share between bands, and where
+  !> each groove is meshed.
   pure type(groove_type) function groove_at(self, along) result(groove)
     class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
     real(wp), intent(in) :: along !! z, or radius [m]
@@ -152,29 +197,141 @@ contains
     integer :: i
 
     groove = groove_type()
+    angle = self%line_angle(along)
+    if (self%are_resolved() .or. .not. abs(angle) > 0.0_wp) return
+    groove = groove_type(1.0_wp - self%ridge_part, self%depth, [cos(angle), sin(angle)], &
+                         self%member == on_shaft)
+    if (.not. allocated(self%end)) return
+    do i = 1, size(self%end)
+      associate (end => self%end(i))
+        if (along < end%strip(1) .or. along > end%strip(2)) cycle
+        groove%band = end%band
+        groove%spread = end%pitch/(end%strip(2) - end%strip(1))
+        groove%side = end%side
+        groove%sense = merge(1.0_wp, -1.0_wp, (self%pumping(end%band) == pumps_up) .eqv. &
+                             (end%side > 0.0_wp .eqv. end%outside == end_open))
+        groove%outside = end%outside
+        groove%pitch = end%pitch
+        groove%fit = end%fit
+      end associate
+    end do
+  end function groove_at
+
+  !> The ends of bands where the pressure jumps: at the edges of the film, and where a land follows.
+  pure subroutine find_ends(grooves, bearing)
+    type(groove_case_type), intent(inout) :: grooves
+    type(bearing_case_type), intent(in) :: bearing
+    type(film_surface_type) :: surface
+    real(wp) :: rows(2), place, width
+    type(band_end_type) :: end
+    integer :: band, k
+
+    if (.not. grooves%present .or. grooves%model /= grooves_with_ends) return
+    allocate (grooves%end(0))
+    surface = surface_of(bearing)
+    rows = pad_rows(bearing)
+    associate (first => grooves%band_begin, last => grooves%band_end, slack => rounding*maxval(abs(rows)))
+      do band = 1, size(first)
+        do k = 1, 2
+          place = merge(first(band), last(band), k == 1)
+          if (any(abs(merge(last, first, k == 1) - place) <= slack)) cycle ! another band follows
+          end%band = band
+          end%side = merge(1.0_wp, -1.0_wp, k == 1)
+          end%outside = merge(end_open, end_land, abs(rows(k) - place) <= slack)
+          if (end%outside == end_open .and. k == 1 .and. bearing%inner_edge == inner_edge_sealed) cycle
+          end%pitch = turn*surface%radius_at(place)/real(grooves%count, wp)
+          width = min(strip_part*end%pitch, most_of_band*(last(band) - first(band)))
+          end%strip = merge([place, place + width], [place - width, place], k == 1)
+          grooves%end = [grooves%end, end]
+        end do
+      end do
+    end associate
+  end subroutine find_ends
+
+  !> Finds what the ends of bands cost, by the linear film of a pitch at each.
+  subroutine weigh_ends(self)
+    class(groove_case_type), intent(inout) :: self !! what `&grooves` asks for
+    type(error_type), allocatable :: error
+    integer :: i, k
+
+    if (.not. allocated(self%end)) return
+    do i = 1, size(self%end)
+      associate (end => self%end(i), angle => self%angle(min(self%end(i)%band, size(self%angle))))
+        do k = 1, i - 1
+          if (self%end(k)%outside /= end%outside) cycle
+          if (abs(self%angle(min(self%end(k)%band, size(self%angle))) - angle) <= rounding) exit
+        end do
+        if (k < i) then
+          end%fit = self%end(k)%fit
+        else
+          call fit_ends(angle, self%ridge_part, end%outside, end%fit, error)
+          if (allocated(error)) error stop 'an end of grooves that cannot be weighed'
+        end if
+      end associate
+    end do
+  end subroutine weigh_ends
+
+  !> Angle of the grooves' lines with the motion at a place across it, positive where they rise with
+  !> theta; 0 between bands [rad].
+  !>
+  !> Lines that rise with theta drive gas up on a surface at rest, down on one that moves.
+  pure real(wp) function line_angle(self, along) result(angle)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    real(wp), intent(in) :: along !! z, or radius [m]
+    integer :: i
+
+    angle = 0.0_wp
     if (.not. self%present) return
     do i = 1, size(self%band_begin)
       if (along < self%band_begin(i) .or. along > self%band_end(i)) cycle
       angle = self%angle(min(i, size(self%angle)))
       if ((self%pumping(i) == pumps_up) .neqv. (self%member == on_sleeve)) angle = -angle
-      groove = groove_type(1.0_wp - self%ridge_part, self%depth, [cos(angle), sin(angle)], &
-                           self%member == on_shaft)
     end do
-  end function groove_at
+  end function line_angle
 
-  !> Places inside a width where bands begin or end, rising [m].
+  !> Whether each groove is meshed.
+  pure logical function are_resolved(self) result(resolved)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    resolved = self%present .and. self%model == grooves_resolved
+  end function are_resolved
+
+  !> Elements around the shaft: a whole number of each groove and of each ridge; as they are where
+  !> grooves are not meshed.
+  pure integer function elements_around(self, wanted) result(elements)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    integer, intent(in), optional :: wanted !! about so many; default: what usually suffices
+
+    elements = self%count*usual_elements
+    if (self%count > 0) elements = self%count*max(usual_elements, (usual_around + self%count - 1)/self%count)
+    if (present(wanted)) then
+      elements = wanted
+      if (self%are_resolved()) elements = self%count*max(fewest_elements, nint(real(wanted, wp)/real(self%count, wp)))
+    end if
+  end function elements_around
+
+  !> Places inside a width where bands, or strips at their ends, begin or end, rising [m].
   pure function row_ends(self, rows) result(ends)
     class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
     real(wp), intent(in) :: rows(2) !! its ends [m]
     real(wp), allocatable :: ends(:)
     real(wp) :: slack
-    integer :: i
+    integer :: i, k
 
     allocate (ends(0))
     if (.not. self%present) return
     slack = rounding*maxval(abs(rows))
     do i = 1, size(self%band_begin)
       call add(self%band_begin(i))
+      if (allocated(self%end)) then
+        do k = 1, size(self%end)
+          if (self%end(k)%band /= i) cycle
+          if (self%end(k)%side > 0.0_wp) call add(self%end(k)%strip(2))
+        end do
+        do k = 1, size(self%end)
+          if (self%end(k)%band /= i) cycle
+          if (self%end(k)%side < 0.0_wp) call add(self%end(k)%strip(1))
+        end do
+      end if
       call add(self%band_end(i))
     end do
 

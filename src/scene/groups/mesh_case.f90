@@ -6,6 +6,7 @@ module gfb_mesh_case
   use gfb_case_keys, only: case_keys_type, between, from_to, positive, unless
   use gfb_text, only: text
   use gfb_foil_cases, only: bump_foil_case_type, strip_straight
+  use gfb_groove_case, only: groove_case_type, resolved_rows, resolved_refinement
   use gfb_model_case, only: model_case_type
   implicit none (type, external)
   private
@@ -117,12 +118,13 @@ contains
   end subroutine read_solver_case
 
   !> Reads the group; its defaults are those of the bearing.
-  subroutine read_mesh_case(keys, mesh, bearing, foil, model)
+  subroutine read_mesh_case(keys, mesh, bearing, foil, model, grooves)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(mesh_case_type), intent(out) :: mesh !! what `&mesh` asks for
     type(bearing_case_type), intent(in) :: bearing !! what `&bearing` asks for
     type(bump_foil_case_type), intent(in) :: foil !! what `&bump_foil` asks for
     type(model_case_type), intent(in) :: model !! what `&model` asks for
+    type(groove_case_type), intent(in) :: grooves !! what `&grooves` asks for
     logical :: given, can_align
 
     call keys%start_group('mesh')
@@ -131,17 +133,23 @@ contains
     mesh%axial_elements = mesh%axial_elements/model%film_order
     mesh%edge_refinement = bearing%row%edge_refinement
     if (keys%line_of_group('feed') > 0) mesh%edge_refinement = bearing_thrust%edge_refinement
+    if (grooves%are_resolved()) then
+      mesh%circumferential_elements = grooves%elements_around()
+      mesh%axial_elements = 2*resolved_rows/model%film_order
+      mesh%edge_refinement = resolved_refinement
+    end if
     call keys%integer_key('circumferential_elements', mesh%circumferential_elements, &
                           'elements along the pad', from_to(4.0_wp, real(most_a_side, wp)), &
                           default='8 a pitch with bumps, otherwise 240, of a thrust '// &
                           'bearing 64 or more; half of it with '// &
-                          '`film_order = 2`', given=given)
+                          '`film_order = 2`; 12 of each groove that is meshed, 192 '// &
+                          'at least', given=given)
     call keys%rule('bump_foil', 'pitch', .not. given .and. &
                    mesh%circumferential_elements > most_a_side, '8 elements a pitch would be '// &
                    'more than '//text(most_a_side)//' along the pad: give circumferential_elements')
     call keys%integer_key('axial_elements', mesh%axial_elements, &
                           'elements of the whole width, also where one half is solved; by '// &
-                          'default 16 with `film_order = 2`', &
+                          'default 16 with `film_order = 2`, 40 along grooves that are meshed', &
                           from_to(2.0_wp, real(most_a_side, wp)), &
                           useless=unless(bearing%row%journal_keys == '', needs_journal//': '// &
                                          'radial_elements stands for it'))
@@ -154,7 +162,8 @@ contains
                        'in the middle over that at the edges of the width: narrow ones where '// &
                        'the pressure falls; 1: equal ones, as strips side by side '// &
                        'always have; of thrust bearings along both ways', from_to(1.0_wp, &
-                       100.0_wp), default='1; 9 for thrust bearings and with &feed')
+                       100.0_wp), default='1; 9 for thrust bearings and with &feed; 20 for '// &
+                       'grooves that are meshed, of each ridge, groove and band')
     call keys%integer_key('arc_elements', mesh%arc_elements, "elements of a bump's arc", &
                           from_to(2.0_wp, 1000.0_wp))
     call keys%rule('mesh', 'arc_elements', modulo(mesh%arc_elements, 2) /= 0, &

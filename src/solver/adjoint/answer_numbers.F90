@@ -9,7 +9,6 @@ module gfb_answer_numbers
   use gfb_film_load, only: film_forces
   use gfb_film_surface, only: film_surface_type, translations
   use gfb_film_measures, only: film_drag, film_drag_rates, film_moment
-  use gfb_solid_contact, only: contact_pressure_rate
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   use gfb_bearing, only: bearing_type
@@ -270,7 +269,7 @@ contains
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i), first_node => bearing%pad(i)%first_node + 1, last_node => bearing%pad(i)%last_node)
         by_gap(first_node:last_node, place_torque) = by_gap(first_node:last_node, place_torque) + &
-          pad%film%surface%radius*pad%contact%friction*nodal_levers(pad)*contact_pressure_rate(pad%contact, gap(first_node:last_node))
+          pad%film%surface%radius*pad%contact%friction*nodal_levers(pad)*pad%solid_rate(gap(first_node:last_node))
       end associate
     end do
   end subroutine add_block_rates
@@ -286,7 +285,7 @@ contains
     do k = 1, forces
       associate (weight => pad%film%force_weight(coordinate(k), :))
         by_unknown(:size(gap), place_force + k - 1) = weight
-        by_gap(:, place_force + k - 1) = weight*contact_pressure_rate(pad%contact, gap)
+        by_gap(:, place_force + k - 1) = weight*pad%solid_rate(gap)
       end associate
     end do
   end subroutine add_forces
@@ -309,7 +308,7 @@ contains
         mine = mine + film%surface%radius*by_pressure
       end associate
       area = nodal_levers(pad)
-      by_gap(:, place_torque) = film%surface%radius*(by_node + pad%contact%friction*area*contact_pressure_rate(pad%contact, gap))
+      by_gap(:, place_torque) = film%surface%radius*(by_node + pad%contact%friction*area*pad%solid_rate(gap))
       lever = bearing%levers()
       do k = 1, size(bearing%coordinate) ! none of a shaft that is fixed
         step = part*film%clearance/lever(k)

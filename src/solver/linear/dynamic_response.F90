@@ -29,7 +29,6 @@ module gfb_dynamic_response
   use gfb_film_surface, only: shaft_coordinates, all_translations => translations
   use gfb_film_load, only: acts_on
   use gfb_pad, only: pad_type
-  use gfb_solid_contact, only: contact_pressure_rate
   use gfb_contacts_in_motion, only: stick_contacts
   use gfb_pad_contacts, only: linearise_exactly
   use gfb_film_rates, only: squeeze_column
@@ -217,7 +216,7 @@ contains
     allocate (rate(bearing%film_nodes()), source=0.0_wp)
     if (.not. bearing%asperities%present) return
     call bearing%get_unknowns(unknown)
-    rate = contact_pressure_rate(bearing%asperities, bearing%gap(unknown))
+    rate = bearing%solid_rate(bearing%gap(unknown))
   end subroutine measure_asperities
 
   !> What else there is beside the steady equations.

@@ -12,7 +12,6 @@ module gfb_static_stiffness
   use gfb_kinds, only: wp
   use gfb_petsc_session, only: sum_over_ranks, any_rank
   use gfb_film_load, only: film_forces
-  use gfb_solid_contact, only: contact_pressure_rate
   use gfb_pad, only: pad_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_pad_contacts, only: linearise_exactly
@@ -109,7 +108,7 @@ contains
                                                            change(bearing%first_shaft + 1:))
       end associate
     end do
-    pressure = contact_pressure_rate(bearing%asperities, bearing%gap(here))*gap
+    pressure = bearing%solid_rate(bearing%gap(here))*gap
   end function solid_change
 
   !> How the gap over a pad changes: its foil, the shaft and the tilt move.

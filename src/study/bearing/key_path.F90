@@ -275,9 +275,10 @@ contains
     type(carried_type), intent(in) :: carried
     type(bearing_system_type), intent(inout) :: bearing !! gets a start value
     type(bearing_system_type) :: other
-    type(scene_type) :: there
+    type(scene_type), allocatable :: there ! large for a stack
     type(error_type), allocatable :: error
 
+    allocate (there)
     call scene_at_value(scene, carried%value, there, error)
     if (.not. allocated(error)) call build_bearing(there, plan, other, error)
     if (allocated(error)) error stop 'a bearing that had been built cannot be built again'
