@@ -4,7 +4,8 @@
 !> A mass m on the film obeys \( (Z(\omega) - m \omega^2) s = 0 \) where it neither grows nor
 !> decays, with \( Z = K + i \omega C \) along the axis. So C vanishes there, and
 !> \( m = K/\omega^2 \): gas that pockets, orifices or grooves hold back answers late, and below
-!> that frequency drives what it should damp. The smallest mass decides; below it a runner is stable.
+!> that frequency drives what it should damp. The smallest mass decides; below it a runner is
+!> stable.
 module gfb_hammer
   use gfb_kinds, only: wp
   use gfb_bearing_system, only: bearing_system_type
