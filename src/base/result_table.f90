@@ -531,6 +531,11 @@ module gfb_result_table
       'speed at which the asperities carry the part of the load asked for', &
       'with `analysis = ''lift_off''`: speed at which the asperities carry `contact_part` of '// &
       'the load', asked=.true.), &
+    result_type('lift_off_supply_pressure', 'Pa', number, bearing, &
+      'lowest absolute supply pressure that leaves the film asked for', &
+      'with `lift_off_by = ''supply_pressure''`: absolute supply pressure, at the speed that is '// &
+      'given, at which the smallest film has come down to `smallest_gap`', asked=.true., &
+      nodal=.true.), &
     result_type('misalignment_allowance', 'rad', number, bearing, &
       'tilt at which film or heat is at the limit asked for', &
       'with `analysis = ''misalignment_allowance''`: tilt about `tilt_axis` at which the '// &

@@ -8,10 +8,11 @@ module gfb_analysis_row
   integer, parameter, public :: limit_load = 1  !! the largest that leaves the film
   integer, parameter, public :: limit_speed = 2 !! the one that lifts the asperities off
   integer, parameter, public :: limit_tilt = 3  !! the largest that leaves the film
+  integer, parameter, public :: limit_supply = 4 !! the lowest pressure of it that leaves the film
 
   character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed thermal '// &
     'shaft_contact operation sweep contact accuracy sample capacity'
-  character(len=*), parameter :: offered_often = ' pads bore thermal shaft_contact sweep'
+  character(len=*), parameter :: offered_often = ' pads bore feed thermal shaft_contact sweep'
 
   character(len=*), parameter :: bearing = &
     '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 / '// &
