@@ -5,6 +5,7 @@ import math
 from gfb.report.sketch import Bearing
 
 MOST = 64  # rows of a table
+HEADS = ("n", "theta [deg]", "z or radius [mm]", "flow [mg/s]", "mouth [kPa]", "it is")
 
 
 def orifice_rows(results):
