@@ -535,8 +535,8 @@ module gfb_result_table
       'the load', asked=.true.), &
     result_type('lift_off_supply_pressure', 'Pa', number, bearing, &
       'lowest absolute supply pressure that leaves the film asked for', &
-      'with `lift_off_by = ''supply_pressure''`: absolute supply pressure, at the speed that is '// &
-      'given, at which the smallest film has come down to `smallest_gap`', asked=.true., &
+      'with `lift_off_by = ''supply_pressure''`: absolute supply pressure, at the speed that '// &
+      'is given, at which the smallest film has come down to `smallest_gap`', asked=.true., &
       nodal=.true.), &
     result_type('misalignment_allowance', 'rad', number, bearing, &
       'tilt at which film or heat is at the limit asked for', &

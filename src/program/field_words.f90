@@ -58,9 +58,10 @@ module gfb_field_words
       'pressure from which a film that is fed carries', &
       'capacity%contact_part capacity%lift_off_by shaft_contact%roughness shaft_contact%pressure', &
       'lift_off_speed_rpm lift_off_supply_pressure', 'lift_off', '', 'capacity'), &
-    field_word_type('externally_pressurized externally_pressurised aerostatic hybrid supply orifice porous', &
-      'a film that is fed with gas under pressure through orifices or a porous wall: the supply '// &
-      'lifts the shaft at rest and at low speed', &
+    field_word_type('externally_pressurized externally_pressurised aerostatic hybrid supply '// &
+      'orifice porous', &
+      'a film that is fed with gas under pressure through orifices or a porous wall: the '// &
+      'supply lifts the shaft at rest and at low speed', &
       'feed%kind feed%supply_pressure feed%orifice_diameter feed%permeability feed%through', &
       'supply_flow supply_power choked_orifices lift_off_supply_pressure', 'equilibrium', 'feed', &
       'feed'), &

@@ -137,7 +137,8 @@ contains
       angle = hole%angle - bearing%leading_edge_angle
       if (min(angle, arc - angle)*radius <= half) then
         words = 'an edge'
-      else if (bearing%ramp_part > 0.0_wp .and. abs(angle - bearing%ramp_part*arc)*radius < half) then
+      else if (bearing%ramp_part > 0.0_wp .and. &
+               abs(angle - bearing%ramp_part*arc)*radius < half) then
         words = 'the end of the ramp'
       end if
     end associate

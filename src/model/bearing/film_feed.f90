@@ -56,7 +56,7 @@ module gfb_film_feed
     type(porous_wall_type) :: wall
     type(orifice_type) :: orifice
     real(wp) :: supply = 0.0_wp       !! p_s, to which gas is compressed [Pa]
-    real(wp) :: push = 0.0_wp         !! of the tube at each orifice on the foil, with all of the supply [N]
+    real(wp) :: push = 0.0_wp         !! of each tube on the foil, with all of the supply [N]
     real(wp) :: volume = 0.0_wp       !! of a pocket [m3]
     real(wp) :: ambient = 0.0_wp      !! p_a [Pa]
     real(wp) :: energy = 0.0_wp       !! Rg T_s, flow in the film's unit over mass [J/kg]

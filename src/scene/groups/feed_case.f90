@@ -137,8 +137,8 @@ contains
     call keys%choice_key('backflow', feed%backflow, backflow_words, 'whether gas of the film '// &
                          'may leave through orifices; check valves keep it', useless=of_holes)
     call keys%choice_key('through', feed%through, through_words, 'orifices are holes of the '// &
-                         'sleeve; of the top foil, at the ends of tubes; or of the top foil, fed '// &
-                         'by gas that fills the channel under it', useless=of_holes)
+                         'sleeve; of the top foil, at the ends of tubes; or of the top foil, '// &
+                         'fed by gas that fills the channel under it', useless=of_holes)
     call read_foil_holes(keys, feed)
     call check_holes(keys, feed, bearing, given)
   end subroutine read_feed_case
@@ -182,16 +182,16 @@ contains
     type(case_keys_type), intent(inout) :: keys
     type(feed_case_type), intent(inout) :: feed
 
-    call keys%real_key('tube_diameter', feed%tube_diameter, 'm', 'of the tubes that end in holes '// &
-                       'of the top foil, outside: each pushes it to the shaft with what the '// &
-                       'supply has above ambient pressure on this area; 0: with nothing', &
+    call keys%real_key('tube_diameter', feed%tube_diameter, 'm', 'of the tubes that end in '// &
+                       'holes of the top foil, outside: each pushes it to the shaft with what '// &
+                       'the supply has above ambient pressure on this area; 0: with nothing', &
                        not_negative, useless=unless(feed%through == through_top_foil, &
                                                     "needs through = 'top_foil'"))
     feed%channel_pressure = feed%supply_pressure
-    call keys%real_key('channel_pressure', feed%channel_pressure, 'Pa', 'absolute pressure of the '// &
-                       'gas under the top foil: its holes are fed from it, and it bends the foil '// &
-                       'to the shaft; supply_pressure is what that gas is compressed to, the '// &
-                       'channel has less where the way into it takes some', positive, &
+    call keys%real_key('channel_pressure', feed%channel_pressure, 'Pa', 'absolute pressure of '// &
+                       'the gas under the top foil: its holes are fed from it, and it bends '// &
+                       'the foil to the shaft; supply_pressure is what that gas is compressed '// &
+                       'to, the channel has less where the way into it takes some', positive, &
                        default='supply_pressure', &
                        useless=unless(feed%through == through_channel, &
                                       "needs through = 'channel'"))

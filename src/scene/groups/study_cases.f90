@@ -344,10 +344,10 @@ contains
     call keys%start_group('capacity', required=by_gap, optional=.not. by_gap, &
                           misplaced=analysis%refusal('capacity'), acts_on=acts_on_all)
     by = 1
-    call keys%choice_key('lift_off_by', by, lift_words, 'what lifts the shaft off: the speed at '// &
-                         'which asperities carry no more than contact_part, or, at the speed '// &
-                         'that is given, 0 too, the supply pressure of &feed at which the film '// &
-                         'is smallest_gap')
+    call keys%choice_key('lift_off_by', by, lift_words, 'what lifts the shaft off: the speed '// &
+                         'at which asperities carry no more than contact_part, or, at the '// &
+                         'speed that is given, 0 too, the supply pressure of &feed at which '// &
+                         'the film is smallest_gap')
     call keys%rule('capacity', 'lift_off_by', keys%meant('capacity', 'lift_off_by') .and. &
                    .not. lifts, "needs analysis = 'lift_off'")
     capacity%limit = analysis%limit
@@ -355,9 +355,9 @@ contains
     by_gap = capacity%limit > 0 .and. capacity%limit /= limit_speed
     call keys%idle(unless(by_gap, 'the answer is measured against it, and does not follow it'))
     call keys%real_key('smallest_gap', capacity%smallest_gap, 'm', 'smallest film that is '// &
-                       'wanted: at it load, tilt or supply has reached its limit; of another analysis '// &
-                       '`film_margin` and the verdict say how far the film keeps it', positive, &
-                       required=by_gap, &
+                       'wanted: at it load, tilt or supply has reached its limit; of another '// &
+                       'analysis `film_margin` and the verdict say how far the film keeps it', &
+                       positive, required=by_gap, &
                        default="required for 'load_capacity', 'misalignment_allowance' and "// &
                                "lift_off_by = 'supply_pressure'")
     call keys%real_key('highest_temperature', capacity%highest_temperature, 'K', 'that film '// &

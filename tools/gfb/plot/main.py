@@ -43,6 +43,7 @@ a film or a foil gives the picture load, speed, model and natural frequencies.
 import argparse
 import contextlib
 import pathlib
+from collections.abc import Sequence
 
 import numpy
 
@@ -301,9 +302,10 @@ def draw_history(path, file, columns, together=False):
     parameter = swept(file)
     if not columns:
         alone = any(data.shape == (1,) for data in history.values())
-        usual = USUAL_OF_ONE if alone else USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
+        usual: Sequence[str] = USUAL_OF_ONE if alone else USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
         if not alone:
-            usual = [name for name in USUAL_OF_SUPPLY if name in history][:MOST_USUAL] if "supply_flow" in history else usual
+            if "supply_flow" in history:
+                usual = [name for name in USUAL_OF_SUPPLY if name in history][:MOST_USUAL]
             usual = next((names for limit, names in USUAL_OF_LIMITS.items() if limit in history), usual)
         columns = [name for name in usual if name in history]
         if not columns:  # of a machine: each result of each bearing

@@ -106,7 +106,7 @@ class Bearing:
             return {}
         pitch, shift = (self.arc if self.is_ring else TURN)/count, self.number("feed%row_shift", 0.0)
         first = self.number("feed%first_orifice_angle", 0.5*pitch)
-        found = {}
+        found: dict[int, tuple[float, float]] = {}
         for row, along in enumerate(rows):
             for i in range(count):
                 angle, number = (listed[i] if listed else first + pitch*i) + shift*row, row*count + i + 1
@@ -301,7 +301,8 @@ def draw_ring(bearing, with_side):
         for crest in crests*(len(crests)*bearing.count <= MOST_BUMPS):
             drawing.add("bump line", "bump_foil contact", line([place(scale*inner, begin + crest), place(RING, begin + crest)]))
     for angle, along in bearing.holes().values():
-        drawing.add("hole", "feed", circle(*place(scale*along, angle), HOLE))
+        x, y = place(scale*along, angle)
+        drawing.add("hole", "feed", circle(x, y, HOLE))
     drawing.notes += [("note load", "↓ load on the runner")]*(with_side and bool(bearing.number("operation%axial_load"))) + [("note", "x →, y ↑, turns ↺"), ("note hole", bearing.supply_words())]
     if with_side:
         larger = section_of_ring(drawing, bearing, inner, part)
