@@ -463,12 +463,11 @@ module gfb_result_table
       'of a thrust bearing with `&feed`: at which a runner of the critical mass grows along '// &
       'the axis; absent where the film damps all', asked=.true.), &
     result_type('critical_mass', 'kg', number, bearing, &
-      'mass on this bearing above which a rigid shaft whirls, or hammers along the axis, {at '// &
-      'this load and speed}', &
-      'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &
-      'rigid shaft whirls, or, of a thrust bearing with `&feed`, its runner hammers along the '// &
-      'axis, at this load and speed; absent where none does; with `&transient` '// &
-      'that of the point where it begins', asked=.true.), &
+      'mass on this bearing above which a rigid shaft whirls or hammers, {at this load and '// &
+      'speed}', &
+      'with `analysis = ''linear_dynamics''`: mass on this bearing above which a rigid shaft '// &
+      'whirls, or with `&feed` a runner hammers along the axis, at this load and speed; absent '// &
+      'where none does; with `&transient` that of the point where it begins', asked=.true.), &
     result_type('whirl_ratio', '1', number, bearing, &
       'frequency of that whirl over the speed of the shaft', &
       'the same: frequency of that whirl over the speed of the shaft', asked=.true.), &
