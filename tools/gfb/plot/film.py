@@ -13,7 +13,7 @@ from gfb.tool import stop
 
 FIELDS = ("pressure", "gap", "deflection")
 WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
-HOLE = {"marker": "o", "color": "none", "markeredgecolor": "k", "markersize": 4.0, "markeredgewidth": 0.8, "zorder": 4}  # an orifice
+ORIFICE = {"marker": "o", "color": "none", "markeredgecolor": "k", "markersize": 4.0, "markeredgewidth": 0.8, "zorder": 4}  # an orifice
 ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane
 
 
@@ -134,7 +134,7 @@ def mark_load(charts, film, scene):
 def mark_holes(chart, film, scene):
     """A circle at every orifice."""
     for theta, along in scene.holes:
-        chart.plot(film.theta[0] + (theta - film.theta[0]) % 360.0, 1.0e3*along, **HOLE)
+        chart.plot(film.theta[0] + (theta - film.theta[0]) % 360.0, 1.0e3*along, **ORIFICE)
 
 
 def mark_thinnest(chart, lines, film, values, unit):
