@@ -302,6 +302,11 @@ def check_lift_off(checks, folder):
         below = solve(folder, f"lift_{name}_below", groups | {"feed": groups["feed"] | {
             key: 101325.0 + 0.9*(value - 101325.0) for key, value in low.items()}})
         checks.below(f"lift-off of the {name}: from below", below["lift_off_supply_pressure"]/lowest - 1.0, 1.0e-7)
+    wall = {"kind": "porous", "supply_pressure": 6.0e5, "permeability": 2.0e-15, "wall_thickness": 4.0e-3}
+    ring = fed(RING, {"axial_load": 150.0, "axial_gap": 6.0e-6}, wall, "lift_off", solver=TIGHT)
+    limit = solve(folder, "lift_ring", ring | {"capacity": {"lift_off_by": "supply_pressure", "smallest_gap": 6.0e-6}})
+    held = solve(folder, "lift_ring_held", fed(RING, {"axial_gap": 6.0e-6}, wall | {"supply_pressure": limit["lift_off_supply_pressure"]}, solver=TIGHT))
+    checks.below("lift-off of a porous ring: what it carries at that gap and supply", held["axial_force"]/150.0 - 1.0, 1.0e-8)
 
 
 def main():
