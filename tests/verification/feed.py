@@ -280,6 +280,16 @@ def check_foils(checks, folder):
     check_foil(checks, folder, TUBES, {"tube_diameter": 0.0})
     check_foil(checks, folder, CHANNEL, {"channel_pressure": 101325.0})
 
+    def filled(supply, **more):
+        """A channel that the supply fills with all of its pressure."""
+        feed = FOIL_HOLES | {"through": "channel", "supply_pressure": supply}
+        return on_plate({"load": [-40.0, 0.0]}, feed, "equilibrium", mesh=COARSE, solver=TIGHT, **more)
+
+    answer = solve(folder, "filled", filled(3.0e5, sensitivity={"quantity": "minimum_gap", "parameters": "feed%supply_pressure"}))
+    up, down = (solve(folder, f"filled_{sign}", filled(3.0e5*(1.0 + sign*1.0e-4)))["minimum_gap"] for sign in (1, -1))
+    checks.below("channel of the supply's pressure: minimum_gap by it over its difference",
+                 answer["d_minimum_gap_d_feed_supply_pressure"]*6.0e1/(up - down) - 1.0, 1.0e-6)
+
 
 def check_lift_off(checks, folder):
     """The lowest supply pressure: an equilibrium at it has the film asked for, at rest and at speed, from above and below."""
