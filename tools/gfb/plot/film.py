@@ -13,6 +13,7 @@ from gfb.tool import stop
 
 FIELDS = ("pressure", "gap", "deflection")
 WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
+ORIFICE = {"marker": "o", "color": "none", "markeredgecolor": "k", "markersize": 4.0, "markeredgewidth": 0.8, "zorder": 4}  # an orifice
 ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane
 
 
@@ -99,6 +100,7 @@ def draw_film(path, file):
         lines.plot(theta, shown[:, middle], label="midplane" if at_middle else f"z = {axial[middle]:.3g} mm")
         draw_edges(lines, theta, shown, axial)
         mark_load((chart, lines), film, scene)
+        mark_holes(chart, film, scene)
         if name == "gap":
             mark_thinnest(chart, lines, film, values, unit)
         lines.set_ylabel(f"{WORDS[name]} [{unit}]")
@@ -127,6 +129,12 @@ def mark_load(charts, film, scene):
     place = film.theta[0] + (scene.load_angle - film.theta[0]) % 360.0
     for chart in charts:
         chart.axvline(place, color="k", linewidth=0.9, linestyle="-.", label="direction of the load")
+
+
+def mark_holes(chart, film, scene):
+    """A circle at every orifice."""
+    for theta, along in scene.holes:
+        chart.plot(film.theta[0] + (theta - film.theta[0]) % 360.0, 1.0e3*along, **ORIFICE)
 
 
 def mark_thinnest(chart, lines, film, values, unit):

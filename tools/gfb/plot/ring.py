@@ -4,7 +4,7 @@ import numpy
 from matplotlib import pyplot
 
 from gfb.plot.colours import around_zero, draw_bar, levels_of, look_of, round_numbers
-from gfb.plot.film import ROUND_OFF, WORDS, readable
+from gfb.plot.film import ORIFICE, ROUND_OFF, WORDS, readable
 from gfb.plot.foil import round_scale, shape_of
 from gfb.plot.scene import scene_of
 from gfb.report.thinnest import node_of_thinnest
@@ -40,7 +40,7 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
     fields, points = file["VTKHDF/PointData"], 1.0e3*file["VTKHDF/Points"][...]
     names = [name for name in words if name in fields and (name != "deflection" or numpy.any(fields[name]))]
     figure, axes = pyplot.subplots(1, len(names), figsize=(4.6*len(names), 4.8), squeeze=False, layout="constrained")
-    sectors = sectors_of(file)
+    sectors, scene = sectors_of(file), scene_of(path)
     for chart, name in zip(axes[0], names, strict=True):
         values, unit = readable(fields[name])
         low, high = bounds(values)
@@ -50,6 +50,8 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
         for nodes in sectors:
             chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, extend=beyond, **shades)
             draw_outline(chart, points[nodes])
+        for theta, radius in scene.holes:
+            chart.plot(1.0e3*radius*numpy.cos(numpy.radians(theta)), 1.0e3*radius*numpy.sin(numpy.radians(theta)), **ORIFICE)
         if name == "gap":
             pad = fields["pad"][...] if "pad" in fields else numpy.zeros(len(values))
             thinnest = node_of_thinnest(values, fields["theta"][...], numpy.hypot(points[:, 0], points[:, 1]), pad, True)[0]
@@ -61,7 +63,7 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
         chart.set_aspect("equal")
         chart.set_xlabel("x [mm]")
         chart.set_ylabel("y [mm]")
-    figure.suptitle(scene_of(path).title(path) + "\nthe runner turns from x to y; leading edges are black", fontsize=10)
+    figure.suptitle(scene.title(path) + "\nthe runner turns from x to y; leading edges are black", fontsize=10)
     return figure
 
 

@@ -7,7 +7,9 @@ from typing import Optional
 import numpy
 
 from gfb import steps
-from gfb.results import BROKEN, open_results, used_keys
+from gfb.case import Case
+from gfb.report.sketch import Bearing
+from gfb.results import BROKEN, open_results, text_of, used_keys
 
 MODELS = {"rigid": "rigid", "elastic_foundation": "elastic foundation", "beam": "beams", "shell": "shells", "plate": "plate on crests"}
 WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle": "angle of the load", "minimum_gap": "thinnest film",
@@ -16,7 +18,7 @@ WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle":
          "force_x": "force along x",
          "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
          "minimum_pressure": "smallest pressure, absolute", "axial_gap": "axial gap", "axial_force": "axial force",
-         "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
+         "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed", "lift_off_supply_pressure": "lift-off supply pressure"}
 MOVING = ("transient", "periodic")  # analyses in which the film's force changes and the load stays
 NEAR = 1.0e-4  # of the film's force: a load that differs less is it
 MOST_PADS = 1000  # more are none of gfb
@@ -32,6 +34,7 @@ class Scene:
     radius: Optional[float] = None      # of the shaft [m]
     begins: tuple = (0.0,)    # theta where each pad begins [deg]
     frequencies: dict = dataclasses.field(default_factory=dict)  # mode_1: natural frequency [Hz]
+    holes: tuple = ()                   # (theta [deg], z or radius [m]) of the orifices that feed the film
 
     def title(self, path):
         """The case's name, and these words."""
@@ -62,6 +65,9 @@ def read_scene(file):
         return scene
     scene.radius = number(keys, "bearing", "radius")
     scene.begins = tuple(map(math.degrees, leading_edges(keys)))
+    if ("feed", "kind") in keys:
+        bearing = Bearing(Case.parse(text_of(file["scene/used"][()])))
+        scene.holes = tuple((math.degrees(angle), along) for angle, along in bearing.holes().values())
     words, history = [], file["history"]
     if "force_x" in summary and "force_y" in summary:
         force = complex(summary["force_x"][()], summary["force_y"][()])
