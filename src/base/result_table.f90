@@ -479,10 +479,11 @@ module gfb_result_table
       'of a thrust bearing with `&feed` or `&grooves`: at which a runner of the critical mass '// &
       'grows along the axis; absent where the film damps all', asked=.true.), &
     result_type('critical_mass', 'kg', number, bearing, &
-      'mass on this bearing above which a rigid shaft whirls, {at this load and speed}', &
-      'with `analysis = ''linear_dynamics''`: mass that this bearing carries above which a '// &
-      'rigid shaft whirls, at this load and speed; absent where none does; with `&transient` '// &
-      'that of the point where it begins', asked=.true.), &
+      'mass on this bearing above which a rigid shaft whirls or hammers, {at this load and '// &
+      'speed}', &
+      'with `analysis = ''linear_dynamics''`: mass on this bearing above which a rigid shaft '// &
+      'whirls, or with `&feed` a runner hammers along the axis, at this load and speed; absent '// &
+      'where none does; with `&transient` that of the point where it begins', asked=.true.), &
     result_type('whirl_ratio', '1', number, bearing, &
       'frequency of that whirl over the speed of the shaft', &
       'the same: frequency of that whirl over the speed of the shaft', asked=.true.), &
@@ -547,6 +548,11 @@ module gfb_result_table
       'speed at which the asperities carry the part of the load asked for', &
       'with `analysis = ''lift_off''`: speed at which the asperities carry `contact_part` of '// &
       'the load', asked=.true.), &
+    result_type('lift_off_supply_pressure', 'Pa', number, bearing, &
+      'lowest absolute supply pressure that leaves the film asked for', &
+      'with `lift_off_by = ''supply_pressure''`: absolute supply pressure, at the speed that '// &
+      'is given, at which the smallest film has come down to `smallest_gap`', asked=.true., &
+      nodal=.true.), &
     result_type('misalignment_allowance', 'rad', number, bearing, &
       'tilt at which film or heat is at the limit asked for', &
       'with `analysis = ''misalignment_allowance''`: tilt about `tilt_axis` at which the '// &

@@ -54,9 +54,17 @@ module gfb_field_words
       'the largest load that leaves the smallest film', 'capacity%smallest_gap', &
       'load_capacity load_capacity_coefficient', 'load_capacity', '', 'capacity'), &
     field_word_type('lift_off lift_off_speed touch_down touchdown take_off', &
-      'the speed from which the film alone carries, and the asperities nothing', &
-      'capacity%contact_part shaft_contact%roughness shaft_contact%pressure', &
-      'lift_off_speed_rpm', 'lift_off', '', 'capacity'), &
+      'the speed from which the film alone carries, and the asperities nothing; or the supply '// &
+      'pressure from which a film that is fed carries', &
+      'capacity%contact_part capacity%lift_off_by shaft_contact%roughness shaft_contact%pressure', &
+      'lift_off_speed_rpm lift_off_supply_pressure', 'lift_off', '', 'capacity'), &
+    field_word_type('externally_pressurized externally_pressurised aerostatic hybrid supply '// &
+      'orifice porous', &
+      'a film that is fed with gas under pressure through orifices or a porous wall: the '// &
+      'supply lifts the shaft at rest and at low speed', &
+      'feed%kind feed%supply_pressure feed%orifice_diameter feed%permeability feed%through', &
+      'supply_flow supply_power choked_orifices lift_off_supply_pressure', 'equilibrium', 'feed', &
+      'feed'), &
     field_word_type('misalignment tilt', &
       'a shaft whose axis is not the sleeve''s: given, swept, or looked for up to a film', &
       'operation%tilt operation%moment capacity%tilt_axis', &

@@ -23,10 +23,12 @@ module gfb_information
   !> Of `--template`, beside the analyses: an equilibrium of a thrust bearing, and a machine.
   character(len=*), parameter :: more_templates(*) = [character(len=7) :: 'thrust', 'machine']
   type(analysis_example_type), parameter :: thrust_example = analysis_example_type( &
-    ' shaft_contact sweep sensitivity accuracy ', &
+    ' feed shaft_contact sweep sensitivity accuracy ', &
     "&bearing kind='thrust' outer_radius=50.0e-3 inner_radius=25.0e-3 / "// &
     '&pads count=6 arc=0.785 / &ramp part=0.5 height=20.0e-6 / '// &
     '&gas viscosity=1.85e-5 ambient_pressure=1.01325e5 / '// &
+    "&feed kind='orifices' supply_pressure=6.0e5 orifice_diameter=0.2e-3 orifices=2 "// &
+    'row_positions=37.5e-3 / '// &
     '&operation speed_rpm=40000.0 axial_load=150.0 / '// &
     "&model foil='elastic_foundation' foundation_stiffness=10.0e9 "// &
     "foundation_pressure='radial_mean' / &shaft_contact roughness=0.5e-6 pressure=10.0e6 / "// &

@@ -37,9 +37,10 @@ module gfb_bearing_summary
   !> what a scene does not have is absent.
   character(len=*), parameter :: asked(*) = [character(len=28) :: &
     'load_capacity', 'load_capacity_coefficient', 'load_capacity_coefficient_si', &
-    'lift_off_speed_rpm', 'misalignment_allowance', 'limit_reached', 'not_reached', 'ending', &
-    'onset_speed_rpm', 'critical_mass', 'growth_rate', 'time', 'turns', 'orbit_x', 'orbit_y', &
-    'minimum_gap_over_time', 'film_margin', 'temperature_margin', 'stress_margin']
+    'lift_off_speed_rpm', 'lift_off_supply_pressure', 'misalignment_allowance', &
+    'limit_reached', 'not_reached', 'ending', 'onset_speed_rpm', 'critical_mass', 'growth_rate', &
+    'time', 'turns', 'orbit_x', 'orbit_y', 'minimum_gap_over_time', 'film_margin', &
+    'temperature_margin', 'stress_margin']
   integer, parameter :: digits = 6, label = 16 !! of their lines
 
 contains

@@ -6,7 +6,7 @@ module gfb_feed_rules
   use gfb_bearing_row, only: needs_thrust
   use gfb_case_keys, only: case_keys_type
   use gfb_feed_case, only: feed_group, feed_porous, hole_type, find_holes, spread_rim, &
-                           through_sleeve, through_top_foil
+                           through_sleeve
   use gfb_film_surface, only: film_surface_type
   use gfb_bearing_case, only: surface_of
   use gfb_gas_law, only: density_peng_robinson, density_table
@@ -29,11 +29,8 @@ contains
 
     if (.not. scene%feed%present .or. .not. scene%general%analysis%has_film) return
     associate (feed => scene%feed, model => scene%model, bearing => scene%bearing, gas => scene%gas)
-      if (keys%meant(feed_group, 'supply_pressure') .and. gas%ambient_pressure > 0.0_wp .and. &
-          feed%supply_pressure > 0.0_wp .and. feed%supply_pressure <= gas%ambient_pressure) then
-        call keys%warn(feed_group, 'supply_pressure', 'is not above the ambient pressure of '// &
-                       text(gas%ambient_pressure)//' Pa: nothing is fed. It is absolute')
-      end if
+      call warn_of_low('supply_pressure', feed%supply_pressure)
+      call warn_of_low('channel_pressure', feed%channel_pressure)
       call keys%rule(feed_group, 'kind', scene%thermal%present, 'cannot stand beside &thermal '// &
                      'in this version')
       call keys%rule(feed_group, 'kind', any(gas%law%density == &
@@ -48,8 +45,8 @@ contains
       call keys%rule(feed_group, 'through', feed%has_orifices() .and. &
                      feed%through == through_sleeve .and. model%foil%has_top_foil .and. &
                      model%foil%is_known(), 'must be given, '// &
-                     "'top_foil': holes of the sleeve end under the foil")
-      call keys%rule(feed_group, 'through', feed%through == through_top_foil .and. &
+                     "'top_foil' or 'channel': holes of the sleeve end under the foil")
+      call keys%rule(feed_group, 'through', feed%through /= through_sleeve .and. &
                      model%foil%is_known() .and. .not. model%foil%has_top_foil, &
                      "needs a top foil: foil = 'beam', "// &
                      "'plate' or 'shell' in &model")
@@ -64,6 +61,20 @@ contains
       end if
       if (feed%has_orifices()) call check_mouths(keys, scene)
     end associate
+
+  contains
+
+    !> Warns of a pressure that feeds nothing.
+    subroutine warn_of_low(key, pressure)
+      character(len=*), intent(in) :: key !! of the pressure
+      real(wp), intent(in) :: pressure !! absolute [Pa]
+
+      if (.not. keys%meant(feed_group, key)) return
+      if (min(scene%gas%ambient_pressure, pressure) <= 0.0_wp .or. &
+          pressure > scene%gas%ambient_pressure) return
+      call keys%warn(feed_group, key, 'is not above the ambient pressure of '// &
+                     text(scene%gas%ambient_pressure)//' Pa: nothing is fed. It is absolute')
+    end subroutine warn_of_low
   end subroutine check_feed
 
   !> Mouths lie on a pad, and not on each other.
@@ -72,8 +83,8 @@ contains
     type(scene_type), intent(in) :: scene
     type(hole_type), allocatable :: hole(:)
     type(film_surface_type) :: surface
-    character(len=:), allocatable :: key
-    real(wp) :: half, start, arc, apart
+    character(len=:), allocatable :: key, crossed
+    real(wp) :: apart
     integer :: pad, i, k, found
 
     associate (feed => scene%feed, bearing => scene%bearing)
@@ -81,21 +92,19 @@ contains
       if (min(bearing%radius, bearing%length, feed%mouth_diameter) <= 0.0_wp) return
       if (size(feed%row_positions) == 0 .or. feed%holes_of_row() < 1) return
       if (feed%spread /= spread_rim) return
+      call check_cuts(keys, scene)
       surface = surface_of(bearing)
       key = 'orifices'
       if (size(feed%orifice_angles) > 0) key = 'orifice_angles'
-      start = bearing%leading_edge_angle
-      arc = pad_angle(bearing)
       found = 0
       do pad = 1, bearing%pads
         call find_holes(feed, bearing, pad, hole)
         found = found + size(hole)
         do i = 1, size(hole)
-          half = 0.5_wp*feed%mouth_diameter/max(surface%radius_at(hole(i)%along), tiny(half))
-          if (.not. bearing%is_ring() .and. (hole(i)%angle - half <= start .or. &
-                                             hole(i)%angle + half >= start + arc)) then
+          crossed = crossed_by(scene, hole(i), surface%radius_at(hole(i)%along))
+          if (crossed /= '') then
             call keys%complain(feed_group, key, 'puts the mouth of orifice '// &
-                               text(hole(i)%number)//' across an edge of pad '//text(pad))
+                               text(hole(i)%number)//' across '//crossed//' of pad '//text(pad))
             return
           end if
           do k = 1, i - 1
@@ -112,4 +121,44 @@ contains
       call keys%rule(feed_group, key, found == 0, 'leaves no orifice on a pad')
     end associate
   end subroutine check_mouths
+
+  !> What of its pad the mouth of an orifice lies across; empty where nothing.
+  function crossed_by(scene, hole, radius) result(words)
+    type(scene_type), intent(in) :: scene
+    type(hole_type), intent(in) :: hole
+    real(wp), intent(in) :: radius !! of the surface at its centre [m]
+    character(len=:), allocatable :: words
+    real(wp) :: half, angle
+
+    words = ''
+    if (scene%bearing%is_ring()) return
+    half = 0.5_wp*scene%feed%mouth_diameter
+    associate (bearing => scene%bearing, arc => pad_angle(scene%bearing))
+      angle = hole%angle - bearing%leading_edge_angle
+      if (min(angle, arc - angle)*radius <= half) then
+        words = 'an edge'
+      else if (bearing%ramp_part > 0.0_wp .and. &
+               abs(angle - bearing%ramp_part*arc)*radius < half) then
+        words = 'the end of the ramp'
+      end if
+    end associate
+  end function crossed_by
+
+  !> Mouths lie on one strip of a foundation that is cut.
+  subroutine check_cuts(keys, scene)
+    type(case_keys_type), intent(inout) :: keys
+    type(scene_type), intent(in) :: scene
+    integer :: row, i
+
+    if (.not. scene%model%has_strips()) return
+    associate (rows => scene%feed%row_positions, cuts => scene%model%cut_radii)
+      do row = 1, size(rows)
+        do i = 1, size(cuts)
+          if (abs(rows(row) - cuts(i)) >= 0.5_wp*scene%feed%mouth_diameter) cycle
+          call keys%complain(feed_group, 'row_positions', 'puts mouths across the cut at '// &
+                             text(cuts(i))//' m', row)
+        end do
+      end do
+    end associate
+  end subroutine check_cuts
 end module gfb_feed_rules

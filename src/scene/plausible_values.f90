@@ -145,13 +145,15 @@ module gfb_plausible_values
                'foil_damping%loss_frequency'), &
     range_type(0.0_wp, 100.0_wp, '1', '%', 'dynamics%frequency_ratios'), &
     range_type(0.0_wp, 0.5_wp, '1', '%', 'dynamics%interpolation_tolerance'), &
-    range_type(1.0e4_wp, 2.0e7_wp, 'Pa', 'bar,kPa,MPa', 'feed%supply_pressure'), &
+    range_type(1.0e4_wp, 2.0e7_wp, 'Pa', 'bar,kPa,MPa', 'feed%supply_pressure '// &
+               'feed%channel_pressure'), &
     range_type(200.0_wp, 1300.0_wp, 'K', 'degC', 'feed%supply_temperature'), &
     range_type(1.0e-17_wp, 1.0e-11_wp, 'm^2', 'um^2', 'feed%permeability'), &
     range_type(5.0e-4_wp, 5.0e-2_wp, 'm', 'mm,um', 'feed%wall_thickness'), &
     range_type(0.0_wp, 1.0e13_wp, '1/m', '1/mm', 'feed%inertia_coefficient'), &
     range_type(5.0e-5_wp, 3.0e-3_wp, 'm', 'mm,um', 'feed%orifice_diameter'), &
     range_type(5.0e-5_wp, 2.0e-2_wp, 'm', 'mm,um', 'feed%mouth_diameter'), &
+    range_type(0.0_wp, 2.0e-2_wp, 'm', 'mm,um', 'feed%tube_diameter'), &
     range_type(0.0_wp, 0.5_wp, 'm', 'mm,um', 'feed%row_positions'), &
     range_type(0.0_wp, 6.3_wp, 'rad', 'deg', 'feed%first_orifice_angle feed%orifice_angles '// &
                'feed%row_shift'), &

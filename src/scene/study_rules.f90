@@ -9,7 +9,7 @@ module gfb_study_rules
   use gfb_result_names, only: is_of
   use gfb_result_table, only: bearing, strip
   use gfb_scene, only: scene_type
-  use gfb_analysis_row, only: analysis_rows, limit_load, limit_speed, limit_tilt
+  use gfb_analysis_row, only: analysis_rows, limit_load, limit_speed, limit_supply, limit_tilt
   use gfb_sweep_case, only: sweep_load, sweep_speed, sweep_load_angle, sweep_tilt_x, &
                             sweep_eccentricity_x, sweep_eccentricity_y
   use gfb_text, only: text
@@ -193,6 +193,12 @@ contains
         end if
         call keys%rule(group, key, all(needed /= [0, scene%general%asked%number]), &
                        "needs analysis = '"//trim(analysis_rows(max(1, needed))%word)//"'")
+        call keys%rule(group, key, name == 'lift_off_speed_rpm' .and. &
+                       scene%capacity%limit == limit_supply, "needs lift_off_by = 'speed' in "// &
+                       '&capacity')
+        call keys%rule(group, key, name == 'lift_off_supply_pressure' .and. &
+                       scene%capacity%limit /= limit_supply, "needs analysis = 'lift_off', and "// &
+                       "lift_off_by = 'supply_pressure' in &capacity")
       end if
       call keys%rule(group, key, scene%sweep%present, one_answer)
       call keys%rule(group, key, resumed > 0, 'is found on several meshes, which no restart '// &
@@ -220,12 +226,19 @@ contains
       call keys%rule('scene', 'analysis', limit == limit_speed .and. .not. &
                      scene%shaft_contact%present, &
                      "'lift_off' needs &shaft_contact: only asperities lift off")
+      call keys%rule('capacity', 'lift_off_by', limit == limit_supply .and. &
+                     .not. scene%feed%present, "needs &feed: 'supply_pressure' is that of the "// &
+                     'gas that it feeds')
+      call keys%rule('feed', 'supply_pressure', limit == limit_supply .and. scene%feed%present &
+                     .and. scene%feed%supply_pressure <= scene%gas%ambient_pressure, 'must be '// &
+                     'above the ambient pressure, '//text(scene%gas%ambient_pressure)//' Pa: '// &
+                     'the search for the lowest one begins there')
       call keys%rule('model', 'coupling', scene%model%coupling == coupling_partitioned, &
                      "must be 'monolithic' where a limit is looked for: film and foil in turns "// &
                      'follow no path to it')
       ! A lift-off speed is looked for by doubling and halving, a load capacity is given over the
       ! speed; other rules see to a shaft without asperities, and to speeds below zero.
-      if (limit /= limit_tilt .and. scene%shaft_contact%present) then
+      if (all(limit /= [limit_tilt, limit_supply]) .and. scene%shaft_contact%present) then
         still = "must be positive with analysis = '"//trim(scene%general%asked%word)//"'"
         call keys%refuse('operation', 'speed_rpm', &
                          .not. abs(scene%operation%speed_rpm) > 0.0_wp, still)
@@ -268,6 +281,9 @@ contains
         end if
         same = sweep%parameter == sweep_speed
         if (allocated(sweep%keys)) same = same .or. index(sweep%keys, 'operation%speed_rpm') > 0
+      case (limit_supply)
+        same = .false.
+        if (allocated(sweep%keys)) same = index(sweep%keys, 'feed%supply_pressure') > 0
       case default
         same = sweep%parameter == sweep_tilt_x - 1 + scene%capacity%tilt_axis
       end select

@@ -60,7 +60,7 @@ def check_templates(checks, folder):
     _, text, _ = call("--template=equilibrium", folder=folder)
     keys = {(group, key) for group, key in re.findall(r"^\| `&(\w+)` \| `(\w+)` ", call("--keys", folder=folder)[1], re.M)
             if group not in ("modes", "strip_load", "dynamics", "rotor", "capacity", "transient", "periodic", "unbalance",
-                             "foil_damping", "ramp", "shaft", "discs", "bearings", "loads", "machine", "feed")}
+                             "foil_damping", "ramp", "shaft", "discs", "bearings", "loads", "machine")}
     named, group = set(), ""
     for line in text.splitlines():
         group = (re.findall(r"^!?&(\w+)$", line) or [group])[0]

@@ -308,6 +308,23 @@ class BearingTest(unittest.TestCase):
         self.assertTrue(any(numpy.isnan(line.get_xdata()).any() for line in chart.lines))
         plot_film.pyplot.close(figure)
 
+    def test_a_sweep_of_a_key_is_drawn_over_it(self):
+        """A film that is fed has its flow among what is drawn unasked, over the supply pressure; holes of its case are marked."""
+        path = bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
+        with h5py.File(path, "r+") as file:
+            for name, unit, values in (("key_value", "Pa", [6.0e5, 4.0e5]), ("supply_flow", "kg/s", [2.0e-4, 1.0e-4])):
+                file[f"history/{name}"] = values
+                file[f"history/{name}"].attrs.update(unit=unit, meaning="made up")
+            keys = "&bearing\n  radius = 0.02\n/\n&sweep\n  parameter = 'feed%supply_pressure'\n/\n&feed\n  kind = 'orifices'\n  orifices = 4\n  row_positions = -0.01, 0.01\n/\n"
+            del file["scene/used"]
+            file["scene/used"] = keys
+            file.create_group("summary")
+            (chart,) = [one for one in plot_main.draw_history(path, file, []).axes if one.get_ylabel() == "supply flow [g/s]"]
+            holes = plot_scene.read_scene(file).holes
+        self.assertEqual(chart.get_xlabel(), "supply pressure [kPa]")
+        numpy.testing.assert_allclose(chart.lines[0].get_xydata(), [(600.0, 0.2), (400.0, 0.1)])
+        numpy.testing.assert_allclose(sorted(holes), sorted((angle, along) for angle in (45.0, 135.0, 225.0, 315.0) for along in (-0.01, 0.01)))
+
     def test_calls(self):
         bearing_file(self.folder/"b.h5", [(-10.0, 0.0), (-20.0, 0.0)], numpy.zeros((2, 3, 3)))
         for words, picture in ((("--show", "contact", "--step", "1,2"), "b.h5.contact.png"), (("--step", "2"), "b.h5.png"),

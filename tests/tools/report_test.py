@@ -11,12 +11,16 @@ import sys
 import tempfile
 import unittest
 
+import h5py
+import numpy
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"tools"))
 import gfb  # noqa: E402
 from gfb.report.answer import Results  # noqa: E402
 from gfb.report.glance import glance  # noqa: E402
 from gfb.report.grooves import groove_lines, groove_words
 from gfb.report.main import read_run, thinnest_pad, write_page  # noqa: E402
+from gfb.report.orifices import orifice_rows  # noqa: E402
 from gfb.report.sensitivities import sensitivities  # noqa: E402
 from gfb.report.margin import STOPPED, Margin  # noqa: E402
 from gfb.report.sketch import Bearing, case_sketch, sketch  # noqa: E402
@@ -242,6 +246,51 @@ class ReportTest(unittest.TestCase):
         some = {name: {"value": value, "unit": unit, "meaning": ""} for name, value, unit in (
             ("minimum_gap", 9.0e-6, "m"), ("pumped_pressure", 9.5e4, "Pa"), ("flow_low", -0.8, "Pa m3/s"), ("flow_high", 0.8, "Pa m3/s"))}
         self.assertIn(("pumped up by grooves", "95 kPa", "0.8 Pa m3/s flow to larger z or radius", False), glance(some, journal))
+
+    def test_orifices_are_where_the_program_has_them(self):
+        """Gas enters around the places of the sketch, and nowhere else; each orifice has its flow, and says whether it is choked."""
+        holes = {"kind": "orifices", "supply_pressure": 6.0e5, "orifice_diameter": 1.0e-4, "orifices": 4, "row_shift": 0.2, "first_orifice_angle": 0.5}
+        journal = gfb.Case(SMALL | {"scene": {"analysis": "fixed_position"}, "operation": {"speed_rpm": 0.0, "eccentricity": (1.5e-5, 0.0)},
+                                    "feed": holes | {"row_positions": (-0.01, 0.01)}, "model": {"foil": "rigid"}})
+        sectors = gfb.Case({"scene": {"analysis": "fixed_position"}, "bearing": {"kind": "thrust", "outer_radius": 0.03, "inner_radius": 0.015},
+                            "pads": {"count": 3, "arc": 1.9}, "gas": SMALL["gas"], "operation": {"speed_rpm": 0.0, "axial_gap": 1.0e-5}, "model": {"foil": "rigid"},
+                            "feed": holes | {"orifices": 2, "row_positions": (0.02, 0.025), "first_orifice_angle": 0.4}})
+        words = set()
+        for name, case, places, listed in (("journal", journal, 8, 8), ("sectors", sectors, 12, 4)):
+            done = gfb.run(case, self.folder, f"fed_{name}")
+            found = Bearing(case).holes()
+            self.assertEqual(list(found), list(range(1, places + 1)))
+            with h5py.File(self.folder/f"fed_{name}.film.vtkhdf") as file:
+                points, fed, theta = file["VTKHDF/Points"][...], file["VTKHDF/PointData/feed"][...], file["VTKHDF/PointData/theta"][...]
+            if name == "journal":
+                points = numpy.stack([0.02*numpy.cos(theta), 0.02*numpy.sin(theta), points[:, 2]], axis=1)
+            centres = numpy.array([(along*math.cos(angle), along*math.sin(angle), 0.0) if name == "sectors" else
+                                   (0.02*math.cos(angle), 0.02*math.sin(angle), along) for angle, along in found.values()])
+            fed_there = numpy.abs(fed) > 1.0e-3*fed.max()
+            far = numpy.linalg.norm((points[:, None, :] - centres)[fed_there, :, :3 if name == "journal" else 2], axis=2)
+            self.assertLess(far.min(axis=1).max(), 2.0e-3)
+            self.assertLess(far.min(axis=0).max(), 5.0e-4)
+            results = Results(read_run(self.folder/f"fed_{name}", None, pictures=False)["summary"], case)
+            rows = orifice_rows(results)
+            self.assertEqual((len(rows), [row[0] for row in rows]), (listed, list(range(1, listed + 1))))
+            self.assertAlmostEqual(sum(float(row[3]) for row in rows)*places/listed, 1.0e6*done["supply_flow"], delta=0.02)
+            self.assertEqual([row[5] for row in rows], ["choked"*(float(row[4]) < 0.52828*600.0) for row in rows])
+            words |= {row[5] for row in rows}
+            shapes = [look for look, _, _ in case_sketch(case)["shapes"] if look.startswith("hole")]
+            self.assertEqual(len(shapes), 8 + 4 if name == "journal" else 12)  # around the shaft, and those that the side shows
+            rows = {what: (value, more) for what, value, more, _ in glance(results.summary, case)}
+            self.assertEqual(rows["supply"][0], f"{1.0e3*done['supply_flow']:.4g} g/s")
+        self.assertEqual(words, {"", "choked"})
+
+    def test_a_supply_that_lifts(self):
+        """The lowest supply pressure against that of the case, by what each is above the gas around; a film at its limit has no margin of its own."""
+        case = gfb.Case(SMALL | {"feed": {"kind": "porous", "supply_pressure": 5.0e5}, "capacity": {"smallest_gap": 1.0e-5}})
+        for lowest, words, factor in ((3.0e5, "lift-off at a supply of 3 bar", 2.0), (1.0e5, "no supply is needed", None)):
+            some = {name: {"value": value, "unit": "", "meaning": ""} for name, value in (("lift_off_supply_pressure", lowest), ("minimum_gap", 1.0e-5))}
+            (one,) = margins_of(Results(some, case))
+            self.assertEqual((one.subject, one.value, one.factor), ("lift-off", words, factor))
+        some = {name: {"value": value, "unit": "", "meaning": ""} for name, value in (("critical_mass", 2.0), ("axial_gap", 1.0e-5))}
+        self.assertEqual([one.subject for one in margins_of(Results(some, case))], ["hammer"])
 
     def test_a_verdict_stands_first(self):
         """What limits, and by how much; the nearest of what is kept; and what has no limit, or was not computed."""

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Films that are fed under pressure: rows of two independent programs, closed forms, a disc with a sealed edge, limits of
-the orifice, derivatives against differences, ranks, half and whole widths, one sector and all, a runner that hammers.
+the orifice, derivatives against differences, ranks, half and whole widths, one sector and all, a runner that hammers, holes
+of foils fed by tubes and from the channel below, the lowest supply that lifts off.
 
 `--long` has all rows of the reference, and meshes twice as fine."""
 
@@ -30,6 +31,12 @@ COARSE = {"circumferential_elements": 48, "axial_elements": 8}
 TIGHT = {"residual_tolerance": 1.0e-13, "step_tolerance": 1.0e-12}
 
 
+FOIL = {"radius": 19.05e-3, "length": 38.1e-3, "clearance": 3.18e-5}
+FOIL_HOLES = {"kind": "orifices", "supply_pressure": 3.0e5, "orifice_diameter": 2.0e-4, "orifices": 8, "row_positions": [-0.01, 0.01]}
+TUBES = FOIL_HOLES | {"through": "top_foil", "tube_diameter": 2.0e-3}
+CHANNEL = FOIL_HOLES | {"through": "channel", "channel_pressure": 2.5e5}
+
+
 def referred(row, **more):
     """The groups of a row of the reference."""
     analysis = "linear_dynamics" if "dynamics" in row["input"] else "fixed_position"
@@ -40,6 +47,14 @@ def fed(bearing, operation, feed, analysis="fixed_position", **more):
     """Groups of a bearing of air on a rigid sleeve."""
     return {"scene": {"analysis": analysis}, "bearing": dict(bearing), "gas": dict(AIR), "operation": {"speed_rpm": 0.0} | operation,
             "model": {"foil": "rigid"}, "feed": dict(feed)} | more
+
+
+def on_plate(operation, feed, analysis="fixed_position", stiffness=4.0e8, modulus=2.14e11, **more):
+    """Groups of the same on a plate that is bound to its springs: gas under a foil that only rests on bumps blows it on to the shaft."""
+    return fed(FOIL, {"speed_rpm": 20000.0} | operation, feed, analysis, **more) | {
+        "model": {"foil": "plate", "crest_stiffness": stiffness, "crest_springs": "two_sided"},
+        "top_foil": {"thickness": 3.0e-4, "youngs_modulus": modulus, "poissons_ratio": 0.29, "fixed_edge": "trailing"},
+        "bump_foil": {"pitch": 4.572e-3, "bumps": 26}}
 
 
 def coefficients(answer, motions):
@@ -195,6 +210,115 @@ def check_floating(checks, folder):
     checks.below("place under that load", free["eccentricity_x"]/6.0e-6 - 1.0, 1.0e-8)
 
 
+def check_nothing_below(checks, folder):
+    """A channel at ambient pressure is none, to the last bit."""
+    for foil in ("plate", "beam"):
+        groups = on_plate({"eccentricity": [1.0e-5, 0.0]}, FOIL_HOLES | {"supply_pressure": 101325.0, "through": "top_foil"}, mesh=COARSE)
+        if foil == "beam":
+            groups["model"] = {"foil": "beam"}
+            groups["bump_foil"] |= {"thickness": 1.0e-4, "youngs_modulus": 2.14e11, "poissons_ratio": 0.29, "half_length": 1.778e-3, "height": 5.0e-4}
+        tubes = solve(folder, f"{foil}_tubes", groups)
+        channel = solve(folder, f"{foil}_channel", groups | {"feed": groups["feed"] | {"through": "channel"}})
+        checks.that(f"{foil}: a channel at ambient pressure is none",
+                    all(tubes[name] == channel[name] for name in ("force_x", "force_y", "minimum_gap", "supply_flow", "maximum_pressure")))
+
+
+def check_stiff_foil(checks, folder):
+    """A hole of a foil that does not give is one of the sleeve: on elements a mouth's radius long, which leave a mesh as it is."""
+    mouths = {"mouth_diameter": 4.0e-3, "row_positions": [-9.525e-3, 9.525e-3]}
+    mesh = {"circumferential_elements": 208, "axial_elements": 32, "edge_refinement": 1.0}
+    operation = {"eccentricity": [1.0e-5, 3.0e-6], "speed_rpm": 2000.0}
+    sleeve = solve(folder, "hole_of_sleeve", fed(FOIL, operation, FOIL_HOLES | mouths, mesh=mesh, solver=TIGHT))
+    for feed in (TUBES, CHANNEL | {"channel_pressure": 3.0e5}):
+        groups = on_plate(operation, feed | mouths, stiffness=1.0e17, modulus=1.0e17, mesh=mesh, solver=TIGHT)
+        groups["top_foil"]["thickness"] = 9.0e-4
+        groups["bump_foil"]["pitch"] = 2.0*math.pi*FOIL["radius"]/26.0*(1.0 - 1.0e-9)
+        foil = solve(folder, f"hole_of_foil_{feed['through']}", groups)
+        for quantity in ("force_x", "force_y", "supply_flow", "orifice_flow_1"):
+            checks.below(f"stiff foil, {feed['through']}: {quantity} over the rigid one", foil[quantity]/sleeve[quantity] - 1.0, 1.0e-6)
+
+
+def deflection(answer):
+    """Mean of the foil's deflection over the film's nodes, away from the shaft [m]."""
+    with h5py.File(f"{answer.stem}.film.vtkhdf") as file:
+        return float(file["VTKHDF/PointData/deflection"][...].mean())
+
+
+def check_foil(checks, folder, feed, without):
+    """Half and whole, ranks, the foil comes to the shaft, K at rest is the slope of the force, derivatives by keys."""
+    word = feed["through"]
+
+    def held(e, analysis="fixed_position", **changed):
+        return on_plate({"eccentricity": [e, 2.0e-6]}, feed | changed, analysis, mesh=COARSE, solver=TIGHT)
+
+    half = solve(folder, f"{word}_half", held(1.0e-5))
+    several = solve(folder, f"{word}_ranks", held(1.0e-5), ranks=3)
+    for quantity in ("force_x", "force_y", "supply_flow", "minimum_gap"):
+        checks.below(f"{word}, three ranks: {quantity}", several[quantity]/half[quantity] - 1.0, 1.0e-11)
+    checks.that(f"{word}: the foil comes to the shaft", deflection(half) < deflection(solve(folder, f"{word}_without", held(1.0e-5, **without))))
+    middle = held(1.0e-5, "linear_dynamics", row_positions=[0.0]) | {"dynamics": {"frequencies": [1000.0]}}
+    parts = [coefficients(solve(folder, f"{word}_{half}", middle | {"model": middle["model"] | {"half_width": half}}), 2) for half in ("yes", "no")]
+    for name, one, all_of_it in zip(("stiffness", "damping"), *parts, strict=True):
+        checks.below(f"{word}, half and whole: {name}", float(numpy.abs(one - all_of_it).max()/numpy.abs(all_of_it).max()), 1.0e-9)
+    vibration = solve(folder, f"{word}_slope", held(1.0e-5, "linear_dynamics") | {"dynamics": {"frequencies": [1.0e-3]}})
+    step = 1.0e-9
+    up, down = (solve(folder, f"{word}_slope_{sign}", held(1.0e-5 + sign*step))["force_x"] for sign in (1, -1))
+    checks.below(f"{word}: K at rest over the slope of the force", -vibration["stiffness_xx"]*2.0*step/(up - down) - 1.0, 1.0e-6)
+    loaded = on_plate({"load": [-40.0, 0.0]}, feed, "equilibrium", mesh=COARSE, solver=TIGHT)
+    keys = [key for key in ("supply_pressure", "tube_diameter", "channel_pressure") if key in feed]
+    answer = solve(folder, f"{word}_derived", loaded | {"sensitivity": {
+        "quantity": "minimum_gap", "parameters": ", ".join(f"feed%{key}" for key in keys)}})
+    for key in keys:
+        moved = [solve(folder, f"{word}_derived_{sign}", loaded | {"feed": feed | {key: feed[key]*(1.0 + sign*1.0e-4)}})["minimum_gap"]
+                 for sign in (1, -1)]
+        found, size = answer[f"d_minimum_gap_d_feed_{key}"]*2.0e-4*feed[key], 1.0e-4*answer["minimum_gap"]
+        checks.below(f"{word}: minimum_gap by {key} and its difference", (found - moved[0] + moved[1])/size, 1.0e-5)
+
+
+def check_foils(checks, folder):
+    """Tubes that push and a channel that is filled."""
+    check_foil(checks, folder, TUBES, {"tube_diameter": 0.0})
+    check_foil(checks, folder, CHANNEL, {"channel_pressure": 101325.0})
+
+    def filled(supply, **more):
+        """A channel that the supply fills with all of its pressure."""
+        feed = FOIL_HOLES | {"through": "channel", "supply_pressure": supply}
+        return on_plate({"load": [-40.0, 0.0]}, feed, "equilibrium", mesh=COARSE, solver=TIGHT, **more)
+
+    answer = solve(folder, "filled", filled(3.0e5, sensitivity={"quantity": "minimum_gap", "parameters": "feed%supply_pressure"}))
+    up, down = (solve(folder, f"filled_{sign}", filled(3.0e5*(1.0 + sign*1.0e-4)))["minimum_gap"] for sign in (1, -1))
+    checks.below("channel of the supply's pressure: minimum_gap by it over its difference",
+                 answer["d_minimum_gap_d_feed_supply_pressure"]*6.0e1/(up - down) - 1.0, 1.0e-6)
+
+
+def check_lift_off(checks, folder):
+    """The lowest supply pressure: an equilibrium at it has the film asked for, at rest and at speed, from above and below."""
+    wanted = 8.0e-6
+    for name, groups in (("journal", fed(JOURNAL, {"load": [-20.0, 0.0]}, HOLES, "lift_off", mesh=COARSE, solver=TIGHT)),
+                         ("foil", on_plate({"load": [-40.0, 0.0], "speed_rpm": 2000.0}, CHANNEL | {"channel_pressure": 3.0e5}, "lift_off",
+                                           mesh=COARSE, solver=TIGHT))):
+        groups["capacity"] = {"lift_off_by": "supply_pressure", "smallest_gap": wanted}
+        first = groups["feed"]["supply_pressure"]
+        limit = solve(folder, f"lift_{name}", groups)
+        lowest = limit["lift_off_supply_pressure"]
+        scale = (lowest - 101325.0)/(first - 101325.0)  # that of the channel goes with it
+        low = {key: 101325.0 + scale*(value - 101325.0) for key, value in groups["feed"].items() if key.endswith("_pressure")}
+        there = {key: value for key, value in groups.items() if key != "capacity"} | {"scene": {"analysis": "equilibrium"}, "feed": groups["feed"] | low}
+        answer = solve(folder, f"lift_{name}_there", there)
+        checks.that(f"lift-off of the {name}: the limit is reached", limit["limit_reached"] == "true" and lowest < first)
+        for quantity, value in (("minimum_gap", wanted), ("supply_flow", limit["supply_flow"]), ("supply_power", limit["supply_power"])):
+            checks.below(f"lift-off of the {name}: {quantity} of an equilibrium there", answer[quantity]/value - 1.0, 1.0e-7)
+        checks.that(f"lift-off of the {name}: choked orifices", answer["choked_orifices"] == limit["choked_orifices"])
+        below = solve(folder, f"lift_{name}_below", groups | {"feed": groups["feed"] | {
+            key: 101325.0 + 0.9*(value - 101325.0) for key, value in low.items()}})
+        checks.below(f"lift-off of the {name}: from below", below["lift_off_supply_pressure"]/lowest - 1.0, 1.0e-7)
+    wall = {"kind": "porous", "supply_pressure": 6.0e5, "permeability": 2.0e-15, "wall_thickness": 4.0e-3}
+    ring = fed(RING, {"axial_load": 150.0, "axial_gap": 6.0e-6}, wall, "lift_off", solver=TIGHT)
+    limit = solve(folder, "lift_ring", ring | {"capacity": {"lift_off_by": "supply_pressure", "smallest_gap": 6.0e-6}})
+    held = solve(folder, "lift_ring_held", fed(RING, {"axial_gap": 6.0e-6}, wall | {"supply_pressure": limit["lift_off_supply_pressure"]}, solver=TIGHT))
+    checks.below("lift-off of a porous ring: what it carries at that gap and supply", held["axial_force"]/150.0 - 1.0, 1.0e-8)
+
+
 def main():
     checks = Checks()
     long = "--long" in sys.argv[1:]
@@ -210,6 +334,10 @@ def main():
         check_slopes(checks, folder)
         check_hammer(checks, folder)
         check_floating(checks, folder)
+        check_nothing_below(checks, folder)
+        check_stiff_foil(checks, folder)
+        check_foils(checks, folder)
+        check_lift_off(checks, folder)
     checks.close()
 
 

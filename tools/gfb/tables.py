@@ -4,7 +4,7 @@ import math
 
 # SI unit: unit that is read, and what to multiply with.
 READABLE = {"Pa": ("kPa", 1.0e-3), "m": ("um", 1.0e6), "J": ("mJ", 1.0e3), "rad": ("mrad", 1.0e3), "N m": ("mN m", 1.0e3),
-            "N/m": ("MN/m", 1.0e-6), "W/m2": ("kW/m2", 1.0e-3)}
+            "N/m": ("MN/m", 1.0e-6), "W/m2": ("kW/m2", 1.0e-3), "kg/s": ("g/s", 1.0e3)}
 # The same for units in which drawings and data sheets have what a case file has in SI units, before those that are read.
 TYPED = {"m": ("mm", 1.0e3), "rad": ("deg", 180.0/math.pi), "Pa": ("GPa", 1.0e-9)}
 # What may be typed, too, and is never shown: SI unit: {unit: what it is in SI, as a decimal number, which is exact}.

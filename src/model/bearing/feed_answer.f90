@@ -2,7 +2,7 @@
 module gfb_feed_answer
   use gfb_kinds, only: wp
   use gfb_bearing, only: bearing_type
-  use gfb_feed_law, only: critical_ratio, orifice_flow
+  use gfb_feed_law, only: critical_ratio, orifice_flow, supply_at
   use gfb_film_feed, only: mouth_state_type, mouth_state
   use gfb_operating_point, only: operating_point_type
   use gfb_petsc_session, only: sum_over_ranks
@@ -56,9 +56,7 @@ contains
       total = sum_over_ranks(total)
       if (size(feed%mouth) > 0) call read_mouths(bearing, point%supply, unknown, total(1), answer)
       answer%flow = total(1)/feed%energy
-      associate (ratio => feed%supply_pressure()/bearing%ambient_pressure)
-        answer%power = total(1)*log(ratio)
-      end associate
+      answer%power = total(1)*log(supply_at(feed%supply, feed%ambient, point%supply)/feed%ambient)
     end associate
   end function feed_answer
 
@@ -106,9 +104,11 @@ contains
           total = total + copies*here%flow
           answer%orifice([mouth%number, mouth%mirror]) = here%flow/feed%energy
           answer%pressure([mouth%number, mouth%mirror]) = here%pressure
-          if (here%pressure <= critical_ratio(feed%orifice%ratio)*feed%orifice%supply_pressure) then
-            answer%choked = answer%choked + nint(copies)
-          end if
+          associate (orifice => feed%orifice_at(part))
+            if (here%pressure <= critical_ratio(orifice%ratio)*orifice%supply_pressure) then
+              answer%choked = answer%choked + nint(copies)
+            end if
+          end associate
           if (here%flow < 0.0_wp) answer%backflow = answer%backflow + nint(copies)
         end associate
       end do

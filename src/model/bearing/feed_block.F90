@@ -11,6 +11,7 @@ module gfb_feed_block
   use gfb_feed_law, only: orifice_flow
   use gfb_film_feed, only: film_feed_type, mouth_state_type, mouth_state, mouth_unknowns, mouth_pressure, mouth_mean, mouth_gap
   use gfb_film_rates, only: squeeze, flow_by_gap
+  use gfb_pad, only: pad_type
   use gfb_pad_terms, only: add_block
   use gfb_wall_film, only: wall_shares
   use gfb_bearing, only: bearing_type, bearing_block_type, bearing_state_type, shown_field_type
@@ -81,6 +82,7 @@ contains
           residual(mean) = residual(mean) - dot_product(mouth%weight, state%unknown(pad%first + mouth%node))/feed%size(mouth_mean)
           residual(gap) = residual(gap) &
             - dot_product(mouth%centre_weight, state%gap(pad%first_node + mouth%centre_node))/feed%size(mouth_gap)
+          call add_push(pad, mouth%centre_node, mouth%part*state%point%supply*feed%push*mouth%centre_weight, residual)
         end associate
         if (.not. bearing%last_rank) cycle
         residual(mean) = residual(mean) + state%unknown(mean)
@@ -228,6 +230,22 @@ contains
       if (.not. fixed(node(a))) residual(node(a)) = residual(node(a)) + value(a)
     end do
   end subroutine add_to_film
+
+  !> Adds forces that push the top foil to the shaft at film nodes; where it is fixed they do nothing.
+  pure subroutine add_push(pad, node, force, residual)
+    type(pad_type), intent(in) :: pad
+    integer, intent(in) :: node(:) !! of the pad
+    real(wp), intent(in) :: force(:) !! on the solved width [N]
+    real(wp), intent(inout) :: residual(:) !! of the bearing, in SI
+    integer :: a
+
+    if (.not. maxval(abs(force)) > 0.0_wp) return ! springs have no equation that is a force
+    do a = 1, size(node)
+      associate (source => pad%foil%source(node(a)))
+        if (source > 0) residual(pad%first + source) = residual(pad%first + source) + force(a)*pad%foil%rate(node(a))
+      end associate
+    end do
+  end subroutine add_push
 
   !> What happens at a point of a line.
   pure type(line_point_type) function line_point(bearing, j, i, state) result(here)

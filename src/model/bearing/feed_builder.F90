@@ -189,6 +189,7 @@ contains
     associate (given => scene%feed, feed => bearing%feed)
       feed%energy = given%energy
       feed%ambient = bearing%ambient_pressure
+      feed%supply = given%supply_pressure
       if (given%kind == feed_porous) then
         feed%wall = wall_of(scene)
         do i = 1, size(bearing%pad)
@@ -196,9 +197,13 @@ contains
         end do
         return
       end if
-      feed%orifice = orifice_type(given%restriction, given%supply_pressure, given%energy, given%specific_heat_ratio, &
+      feed%orifice = orifice_type(given%restriction, given%pressure_at_holes(), given%energy, given%specific_heat_ratio, &
                                   given%discharge_coefficient, given%orifice_diameter, given%mouth_diameter, given%flows_back())
       feed%volume = given%pocket_volume
+      feed%push = (given%supply_pressure - feed%ambient)*given%tube_area()
+      do i = 1, size(bearing%pad)
+        bearing%pad(i)%pressure_below = merge(given%channel_pressure - feed%ambient, 0.0_wp, given%fills_channel())
+      end do
       feed%size([mouth_pressure, mouth_mean]) = bearing%ambient_pressure
       feed%size(mouth_gap) = bearing%clearance
       do i = 1, size(feed%line)

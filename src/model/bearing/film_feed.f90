@@ -55,6 +55,8 @@ module gfb_film_feed
   type, public :: film_feed_type
     type(porous_wall_type) :: wall
     type(orifice_type) :: orifice
+    real(wp) :: supply = 0.0_wp       !! p_s, to which gas is compressed [Pa]
+    real(wp) :: push = 0.0_wp         !! of each tube on the foil, with all of the supply [N]
     real(wp) :: volume = 0.0_wp       !! of a pocket [m3]
     real(wp) :: ambient = 0.0_wp      !! p_a [Pa]
     real(wp) :: energy = 0.0_wp       !! Rg T_s, flow in the film's unit over mass [J/kg]
@@ -67,7 +69,7 @@ module gfb_film_feed
     real(wp), allocatable :: content(:, :)
     real(wp), allocatable :: past(:)  !! (mouths) what earlier steps store in pockets [Pa m3/s]
   contains
-    procedure, non_overridable :: place, supply_pressure, orifice_at
+    procedure, non_overridable :: place, orifice_at
   end type film_feed_type
 
 contains
@@ -79,12 +81,6 @@ contains
     integer, intent(in) :: which !! `mouth_pressure`, `mouth_mean`, `mouth_gap`
     place = self%first + mouth_unknowns*(mouth - 1) + which
   end function place
-
-  !> Absolute pressure of the supply [Pa].
-  pure real(wp) function supply_pressure(self) result(pressure)
-    class(film_feed_type), intent(in) :: self !! what feeds the films
-    pressure = merge(self%wall%supply_pressure, self%orifice%supply_pressure, self%wall%present)
-  end function supply_pressure
 
   !> The orifices with as much of their supply as counts.
   pure type(orifice_type) function orifice_at(self, part) result(orifice)

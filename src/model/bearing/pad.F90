@@ -67,6 +67,7 @@ module gfb_pad
     class(foil_model_type), allocatable :: foil
     type(free_edge_type) :: edge           !! of the top foil
     real(wp), allocatable :: held(:)       !! at its nodes, a deflection that no unknown moves [m]
+    real(wp) :: pressure_below = 0.0_wp    !! of the gas under its top foil above p_a, with all of the supply [Pa]
     integer :: number = 1                  !! of the bearing's pads
     integer :: first = 0, last = 0         !! local unknown of the bearing before the pad's, and their last
     integer :: first_node = 0, last_node = 0 !! the same of the film nodes of all pads

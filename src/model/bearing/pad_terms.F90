@@ -318,7 +318,7 @@ contains
     of_shaft = of_shaft + force(state%shaft%coordinate)
   end subroutine asperity_column
 
-  !> The foil under all pressure that loads it.
+  !> The foil under all pressure that loads it: that of film and asperities less that of the gas below.
   subroutine foil_residual(pad, state, residual)
     type(pad_type), intent(in) :: pad
     type(pad_state_type), intent(in) :: state
@@ -326,7 +326,7 @@ contains
     real(wp) :: loading(size(state%unknown)) ! the unknowns, with that pressure
 
     loading = state%unknown
-    loading(:size(state%gap)) = pad%loading(state%unknown, state%gap)
+    loading(:size(state%gap)) = pad%loading(state%unknown, state%gap) - state%point%supply*pad%pressure_below
     call pad%foil%add_residual(loading, residual)
   end subroutine foil_residual
 

@@ -8,10 +8,11 @@ module gfb_analysis_row
   integer, parameter, public :: limit_load = 1  !! the largest that leaves the film
   integer, parameter, public :: limit_speed = 2 !! the one that lifts the asperities off
   integer, parameter, public :: limit_tilt = 3  !! the largest that leaves the film
+  integer, parameter, public :: limit_supply = 4 !! the lowest pressure of it that leaves the film
 
   character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed grooves '// &
     'thermal shaft_contact operation sweep contact accuracy sample capacity'
-  character(len=*), parameter :: offered_often = ' pads bore grooves thermal shaft_contact sweep'
+  character(len=*), parameter :: offered_often = ' pads bore feed grooves thermal shaft_contact sweep'
 
   character(len=*), parameter :: bearing = &
     '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 / '// &
@@ -22,7 +23,9 @@ module gfb_analysis_row
   !> The bump foil of [Gu2020], case 1, but for its fixed edge.
   character(len=*), parameter :: bumps = '&bump_foil thickness=0.102e-3 youngs_modulus=214.0e9 '// &
     'poissons_ratio=0.29 half_length=1.778e-3 height=0.508e-3 pitch=4.572e-3 '
-  character(len=*), parameter :: beams = bearing// &
+  character(len=*), parameter :: holes = "&feed kind='orifices' supply_pressure=6.0e5 "// &
+    'orifice_diameter=0.2e-3 orifices=8 row_positions=-10.0e-3, 10.0e-3 '
+  character(len=*), parameter :: beams = bearing//holes//"through='top_foil' / "// &
     '&top_foil thickness=0.102e-3 youngs_modulus=214.0e9 poissons_ratio=0.29 '// &
     "fixed_edge='trailing' / "//bumps//"bumps=26 fixed_edge='trailing' "// &
     "fixed_line='half_flat' / &contact friction_top=0.1 friction_sleeve=0.1 / "// &
@@ -57,7 +60,7 @@ module gfb_analysis_row
   !> What shows an analysis: a case file that can be run. No scene carries it along.
   type, public :: analysis_example_type
     character(len=100) :: offered = '' !! groups of it that stand in comments
-    character(len=1400) :: text = ''  !! the file but for `&scene`; it has an answer
+    character(len=1600) :: text = ''  !! the file but for `&scene`; it has an answer
   contains
     procedure :: offers
   end type analysis_example_type
@@ -142,17 +145,17 @@ module gfb_analysis_row
     analysis_example_type(offered_often//' accuracy sample ', &
       beams//load//"&sweep parameter='speed_rpm' values=30000.0, 25000.0, 20000.0 / "// &
       "&capacity smallest_gap=4.0e-6 / &accuracy quantity='load_capacity' /"//sample//heat), &
-    analysis_example_type(' pads bore grooves thermal sweep accuracy sample ', &
+    analysis_example_type(' pads bore feed grooves thermal sweep accuracy sample ', &
       beams//loads//'&capacity contact_part=0.01 / '// &
       "&accuracy quantity='lift_off_speed_rpm' /"//sample//heat), &
     analysis_example_type(offered_often//' accuracy sample ', &
       beams//loads//'&capacity smallest_gap=4.0e-6 / '// &
       "&accuracy quantity='misalignment_allowance' /"//sample//heat), &
-    analysis_example_type(' pads bore grooves thermal shaft_contact ', &
+    analysis_example_type(' pads bore feed grooves thermal shaft_contact ', &
       beams//load//'&rotor mass=1.0 / &transient turns=0.2 / '// &
       '&unbalance unbalance=2.0e-6 /'//heat), &
-    analysis_example_type(' pads bore grooves shaft_contact ', &
-      bearing//"&model foil='elastic_foundation' foundation_stiffness=4.8243e9 / "// &
+    analysis_example_type(' pads bore feed grooves shaft_contact ', &
+      bearing//holes//"/ &model foil='elastic_foundation' foundation_stiffness=4.8243e9 / "// &
       '&mesh circumferential_elements=48 axial_elements=6 / '// &
       '&operation speed_rpm=30000.0 load=-60.0, 0.0 / &rotor mass=1.5 / '// &
       '&periodic steps_per_turn=40 / &unbalance unbalance=1.5e-6 / '// &

@@ -1,7 +1,7 @@
 !> `&feed`: gas that is fed into the film under pressure, through a porous wall or orifices.
 module gfb_feed_case
   use gfb_kinds, only: wp
-  use gfb_units, only: turn
+  use gfb_units, only: turn, pi
   use gfb_analysis_row, only: analysis_row_type
   use gfb_bearing_case, only: bearing_case_type, pad_angle, pad_turn, pad_rows
   use gfb_bearing_row, only: bearing_row_type
@@ -22,14 +22,16 @@ module gfb_feed_case
   integer, parameter, public :: spread_rim = 1  !! gas enters on the rims of mouths
   integer, parameter, public :: spread_line = 2 !! evenly along each row
   integer, parameter, public :: through_sleeve = 1   !! holes in it end at the film
-  integer, parameter, public :: through_top_foil = 2
+  integer, parameter, public :: through_top_foil = 2 !! tubes end at holes in it
+  integer, parameter, public :: through_channel = 3  !! the gas under it enters by holes in it
 
   character(len=*), parameter :: kind_words(*) = [character(len=8) :: 'porous', 'orifices']
   character(len=*), parameter :: restriction_words(*) = [character(len=7) :: 'series', &
                                                          'curtain', 'hole']
   character(len=*), parameter :: spread_words(*) = [character(len=4) :: 'rim', 'line']
   character(len=*), parameter :: backflow_words(*) = [character(len=3) :: 'yes', 'no']
-  character(len=*), parameter :: through_words(*) = [character(len=8) :: 'sleeve', 'top_foil']
+  character(len=*), parameter :: through_words(*) = [character(len=8) :: 'sleeve', 'top_foil', &
+                                                      'channel']
   character(len=*), parameter :: porous_only = "needs kind = 'porous'"
   character(len=*), parameter :: orifices_only = "needs kind = 'orifices'"
   real(wp), parameter :: most_orifices = 1000.0_wp !! of a row
@@ -61,8 +63,11 @@ module gfb_feed_case
     integer :: spread = spread_rim
     integer :: backflow = 1                  !! 1: gas may leave through orifices
     integer :: through = through_sleeve
+    real(wp) :: tube_diameter = 0.0_wp       !! outer one; 0: tubes push nothing [m]
+    real(wp) :: channel_pressure = 0.0_wp    !! of the gas under the top foil, absolute [Pa]
   contains
     procedure, non_overridable :: has_orifices, holes_of_row, flows_back, mirrors, gap_size
+    procedure, non_overridable :: pressure_at_holes, fills_channel, tube_area
   end type feed_case_type
 
   !> Where an orifice lies on a pad.
@@ -132,7 +137,9 @@ contains
     call keys%choice_key('backflow', feed%backflow, backflow_words, 'whether gas of the film '// &
                          'may leave through orifices; check valves keep it', useless=of_holes)
     call keys%choice_key('through', feed%through, through_words, 'orifices are holes of the '// &
-                         'sleeve, or of the top foil', useless=of_holes)
+                         'sleeve; of the top foil, at the ends of tubes; or of the top foil, '// &
+                         'fed by gas that fills the channel under it', useless=of_holes)
+    call read_foil_holes(keys, feed)
     call check_holes(keys, feed, bearing, given)
   end subroutine read_feed_case
 
@@ -169,6 +176,34 @@ contains
                        'turned against the one before', any_value, useless=useless, &
                        acts_on=acts_on_all)
   end subroutine read_holes
+
+  !> What holes of a top foil need beside.
+  subroutine read_foil_holes(keys, feed)
+    type(case_keys_type), intent(inout) :: keys
+    type(feed_case_type), intent(inout) :: feed
+
+    call keys%real_key('tube_diameter', feed%tube_diameter, 'm', 'of the tubes that end in '// &
+                       'holes of the top foil, outside: each pushes it to the shaft with what '// &
+                       'the supply has above ambient pressure on this area; 0: with nothing', &
+                       not_negative, useless=unless(feed%through == through_top_foil, &
+                                                    "needs through = 'top_foil'"))
+    feed%channel_pressure = feed%supply_pressure
+    call keys%real_key('channel_pressure', feed%channel_pressure, 'Pa', 'absolute pressure of '// &
+                       'the gas under the top foil: its holes are fed from it, and it bends '// &
+                       'the foil to the shaft; supply_pressure is what that gas is compressed '// &
+                       'to, the channel has less where the way into it takes some', positive, &
+                       default='supply_pressure', &
+                       useless=unless(feed%through == through_channel, &
+                                      "needs through = 'channel'"))
+    if (.not. feed%has_orifices()) return
+    call keys%rule(feed_group, 'spread', feed%through /= through_sleeve .and. &
+                   feed%spread == spread_line, "must be 'rim' with through = 'top_foil' or "// &
+                   "'channel': the foil's mesh has no lines along rows of orifices")
+    call keys%rule(feed_group, 'channel_pressure', feed%fills_channel() .and. &
+                   feed%channel_pressure > feed%supply_pressure, &
+                   'must not be more than supply_pressure, '//text(feed%supply_pressure)// &
+                   ' Pa, which fills the channel')
+  end subroutine read_foil_holes
 
   !> What the keys of orifices ask of each other.
   subroutine check_holes(keys, feed, bearing, mouth_given)
@@ -264,12 +299,30 @@ contains
     if (.not. self%present) return
     if (self%kind == feed_porous .and. self%wall_thickness > 0.0_wp) then
       gap = (3.0_wp*self%permeability*width**2/self%wall_thickness)**(1.0_wp/3.0_wp)
-    else if (self%has_orifices() .and. self%supply_pressure > 0.0_wp) then
+    else if (self%has_orifices() .and. self%pressure_at_holes() > 0.0_wp) then
       holes = real(self%holes_of_row()*size(self%row_positions), wp)
       gap = (1.5_wp*viscosity*sqrt(self%energy)*holes*self%discharge_coefficient*choked* &
-             self%orifice_diameter**2/self%supply_pressure)**(1.0_wp/3.0_wp)
+             self%orifice_diameter**2/self%pressure_at_holes())**(1.0_wp/3.0_wp)
     end if
   end function gap_size
+
+  !> Whether gas under the top foil feeds its holes.
+  pure logical function fills_channel(self) result(fills)
+    class(feed_case_type), intent(in) :: self !! what `&feed` asks for
+    fills = self%has_orifices() .and. self%through == through_channel
+  end function fills_channel
+
+  !> Absolute pressure behind orifices: the supply's, or that of the gas under the foil [Pa].
+  pure real(wp) function pressure_at_holes(self) result(pressure)
+    class(feed_case_type), intent(in) :: self !! what `&feed` asks for
+    pressure = merge(self%channel_pressure, self%supply_pressure, self%fills_channel())
+  end function pressure_at_holes
+
+  !> Area on which a tube pushes the foil, \( \pi d_t^2/4 \) [m2].
+  pure real(wp) function tube_area(self) result(area)
+    class(feed_case_type), intent(in) :: self !! what `&feed` asks for
+    area = 0.25_wp*pi*self%tube_diameter**2
+  end function tube_area
 
   !> Whether gas may leave through orifices.
   pure logical function flows_back(self)

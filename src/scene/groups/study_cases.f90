@@ -4,7 +4,7 @@ module gfb_study_cases
   use gfb_kinds, only: wp
   use gfb_case_keys, only: case_keys_type, from_to, at_least, between, not_negative, positive, &
                            unless, no_default
-  use gfb_analysis_row, only: analysis_row_type, limit_speed, limit_tilt
+  use gfb_analysis_row, only: analysis_row_type, limit_speed, limit_supply, limit_tilt
   use gfb_result_names, only: asked_names
   use gfb_result_table, only: name_length, strip
   use gfb_text, only: text
@@ -158,10 +158,11 @@ module gfb_study_cases
   end type sensitivity_case_type
 
   character(len=*), parameter :: axis_words(*) = ['x', 'y']
+  character(len=*), parameter :: lift_words(*) = [character(len=15) :: 'speed', 'supply_pressure']
 
   !> What is asked for.
   type :: capacity_case_type
-    integer :: limit = 0                 !! `limit_load`, `limit_speed` or `limit_tilt`; 0: none is
+    integer :: limit = 0                 !! `limit_load`, `limit_speed`, ...; 0: none is
     real(wp) :: smallest_gap = 0.0_wp    !! that the film may have; 0: none is given [m]
     !> that film and top foil may have; 0: none is given [K]
     real(wp) :: highest_temperature = 0.0_wp
@@ -335,18 +336,30 @@ contains
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(capacity_case_type), intent(out) :: capacity !! what `&capacity` asks for
     type(analysis_row_type), intent(in) :: analysis !! of the case file
-    logical :: by_gap
+    logical :: by_gap, lifts
+    integer :: by
 
-    capacity%limit = analysis%limit
-    by_gap = capacity%limit > 0 .and. capacity%limit /= limit_speed
+    lifts = analysis%limit == limit_speed
+    by_gap = analysis%limit > 0 .and. .not. lifts
     call keys%start_group('capacity', required=by_gap, optional=.not. by_gap, &
                           misplaced=analysis%refusal('capacity'), acts_on=acts_on_all)
+    by = 1
+    call keys%choice_key('lift_off_by', by, lift_words, 'what lifts the shaft off: the speed '// &
+                         'at which asperities carry no more than contact_part, or, at the '// &
+                         'speed that is given, 0 too, the supply pressure of &feed at which '// &
+                         'the film is smallest_gap')
+    call keys%rule('capacity', 'lift_off_by', keys%meant('capacity', 'lift_off_by') .and. &
+                   .not. lifts, "needs analysis = 'lift_off'")
+    capacity%limit = analysis%limit
+    if (lifts .and. by == 2) capacity%limit = limit_supply
+    by_gap = capacity%limit > 0 .and. capacity%limit /= limit_speed
     call keys%idle(unless(by_gap, 'the answer is measured against it, and does not follow it'))
     call keys%real_key('smallest_gap', capacity%smallest_gap, 'm', 'smallest film that is '// &
-                       'wanted: at it load or tilt has reached its limit; of another analysis '// &
-                       '`film_margin` and the verdict say how far the film keeps it', positive, &
-                       required=by_gap, &
-                       default="required for 'load_capacity' and 'misalignment_allowance'")
+                       'wanted: at it load, tilt or supply has reached its limit; of another '// &
+                       'analysis `film_margin` and the verdict say how far the film keeps it', &
+                       positive, required=by_gap, &
+                       default="required for 'load_capacity', 'misalignment_allowance' and "// &
+                               "lift_off_by = 'supply_pressure'")
     call keys%real_key('highest_temperature', capacity%highest_temperature, 'K', 'that film '// &
                        'and top foil may have: a load capacity or a misalignment allowance '// &
                        'ends at it, too; of another analysis `temperature_margin` and the '// &
@@ -365,6 +378,10 @@ contains
     if (capacity%limit == limit_speed) then
       call keys%rule('capacity', 'smallest_gap', keys%meant('capacity', 'smallest_gap'), &
                      "has no use with analysis = 'lift_off': that has its limit in contact_part")
+    else if (lifts) then
+      call keys%rule('capacity', 'contact_part', keys%meant('capacity', 'contact_part'), &
+                     "has no use with lift_off_by = 'supply_pressure': that has its limit in "// &
+                     'smallest_gap')
     else if (keys%meant('capacity', 'contact_part')) then
       call keys%complain('capacity', 'contact_part', "needs analysis = 'lift_off'")
     end if

@@ -26,6 +26,7 @@ module gfb_dynamic_response
   use gfb_units, only: turn
   use gfb_bearing_system, only: bearing_system_type
   use gfb_petsc_session, only: sum_over_ranks
+  use gfb_film_feed, only: mouth_unknowns
   use gfb_film_surface, only: shaft_coordinates, all_translations => translations
   use gfb_film_load, only: acts_on
   use gfb_pad, only: pad_type
@@ -183,7 +184,7 @@ contains
     call bearing%settle(bearing%state, moved)
   end subroutine linearise_steady
 
-  !> Gives the bearing of opposite motions the film of an answer and the stiffness of its contacts; its own
+  !> Gives the bearing of opposite motions the film and the mouths of an answer and the stiffness of its contacts; its own
   !> foil stays, for at z = 0 it could not follow.
   subroutine lend_state(bearing, opposite)
     type(bearing_system_type), intent(in) :: bearing
@@ -195,6 +196,11 @@ contains
     opposite%point = bearing%point
     taken = 0.0_wp
     call opposite%put_pressure(bearing%film_pressure(given), taken)
+    if (allocated(bearing%feed)) then
+      associate (mouths => mouth_unknowns*size(bearing%feed%mouth), to => opposite%feed%first, from => bearing%feed%first)
+        taken(to + 1:to + mouths) = given(from + 1:from + mouths)
+      end associate
+    end if
     taken(opposite%first_shaft + 1:) = given(bearing%first_shaft + 1:)
     call opposite%set_unknowns(taken)
     do k = 1, size(bearing%pad)

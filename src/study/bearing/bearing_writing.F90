@@ -54,6 +54,7 @@ module gfb_bearing_writing
     column_type('load_capacity', 'capacity [N]', 1.0_wp), &
     column_type('load_capacity_coefficient', 'in lbf/in^3krpm', 1.0_wp), &
     column_type('lift_off_speed_rpm', 'lift-off [rpm]', 1.0_wp), &
+    column_type('lift_off_supply_pressure', 'lift-off [bar]', 1.0e-5_wp), &
     column_type('misalignment_allowance', 'tilt [mrad]', 1.0e3_wp), &
     column_type('limit_reached', 'at the limit', 1.0_wp), &
     column_type('eccentricity_x', 'e_x [um]', 1.0e6_wp, 'eccentricity_y'), &

@@ -1,4 +1,4 @@
-!> The load, speed or tilt at which film, heat or asperities reach a limit: what is asked, and how far an answer is from it.
+!> The load, speed, tilt or supply at which film, heat or asperities reach a limit: what is asked, and how far an answer is from it.
 module gfb_limit
   use gfb_kinds, only: wp
   use gfb_units, only: rpm, micrometres, ice_point
@@ -8,7 +8,7 @@ module gfb_limit
   use gfb_bearing_case, only: pad_area
   use gfb_film_surface, only: translations
   use gfb_scene, only: scene_type
-  use gfb_analysis_row, only: limit_load, limit_speed
+  use gfb_analysis_row, only: limit_load, limit_speed, limit_supply
   use gfb_operating_point, only: operating_point_type
   use gfb_bearing_system, only: bearing_system_type
   use gfb_bearing_answer, only: bearing_answer_type, bearing_answer
@@ -18,9 +18,10 @@ module gfb_limit
 
   real(wp), parameter :: milliradians = 1.0e3_wp             !! in a radian
   real(wp), parameter :: kilopascals = 1.0e-3_wp             !! in a pascal
+  real(wp), parameter :: bars = 1.0e-5_wp                    !! in a pascal
   real(wp), parameter :: pound_force = 4.4482216152605_wp    !! [N]
   real(wp), parameter :: inch = 0.0254_wp                    !! [m]
-  real(wp), parameter :: growth = 2.0_wp                     !! of load, speed or tilt in a step [1]
+  real(wp), parameter :: growth = 2.0_wp                     !! of load, speed, tilt or supply in a step [1]
   real(wp), parameter :: pounds = inch**3*1000.0_wp*rpm/pound_force !! lbf/(in^3 krpm) in a N s/m^3
 
   !> The limit of a scene.
@@ -31,13 +32,15 @@ module gfb_limit
     real(wp) :: highest_temperature = 0.0_wp !! of film and top foil; 0: none is given, or asperities decide [K]
     real(wp) :: ambient = 0.0_wp      !! temperature of the gas that is drawn in [K]
     real(wp) :: contact_part = 0.0_wp !! of the load [1]
+    real(wp) :: pressure_around = 0.0_wp !! p_a [Pa]
+    real(wp) :: supply = 0.0_wp       !! what all of a supply has above that [Pa]
     real(wp) :: direction(translations) = 0.0_wp !! of the load [1]
     real(wp) :: length = 0.0_wp       !! of the bearing [m]
     real(wp) :: diameter = 0.0_wp     !! [m]
     real(wp) :: arm = 0.0_wp          !! by which a tilt moves the film's edge [m]
     real(wp) :: area = 0.0_wp         !! of the pads of a thrust bearing; 0: it is a journal's [m2]
   contains
-    procedure :: value_at, point_with, reserve, room, next_value, aimed_value, is_of_film, results, words, never_within, course
+    procedure :: value_at, point_with, reserve, room, next_value, aimed_value, is_of_film, results, words, never_within, needs_none, course
     procedure, private :: coefficient, left_by_film, left_by_heat
   end type limit_type
 
@@ -55,6 +58,8 @@ contains
     if (limit%is_of_film()) limit%highest_temperature = scene%capacity%highest_temperature
     limit%ambient = scene%thermal%ambient_temperature
     limit%contact_part = scene%capacity%contact_part
+    limit%pressure_around = scene%gas%ambient_pressure
+    limit%supply = scene%feed%supply_pressure - scene%gas%ambient_pressure
     associate (load => point%load(:translations))
       if (any(abs(load) > 0.0_wp)) limit%direction = load/norm2(load)
     end associate
@@ -76,23 +81,25 @@ contains
   pure function value_at(self, point) result(value)
     class(limit_type), intent(in) :: self !! the limit
     type(operating_point_type), intent(in) :: point !! of the bearing
-    real(wp) :: value !! load [N], speed [rad/s] or tilt [rad]
+    real(wp) :: value !! load [N], speed [rad/s], tilt [rad] or supply over p_a [Pa]
 
     select case (self%kind)
     case (limit_load)
       value = dot_product(point%load(:translations), self%direction)
     case (limit_speed)
       value = point%speed
+    case (limit_supply)
+      value = point%supply*self%supply
     case default
       value = point%place(3 + self%axis)
     end select
   end function value_at
 
-  !> A point with another load, speed or tilt.
+  !> A point with another load, speed, tilt or supply.
   pure function point_with(self, point, value) result(changed)
     class(limit_type), intent(in) :: self !! the limit
     type(operating_point_type), intent(in) :: point !! of the bearing
-    real(wp), intent(in) :: value !! load [N], speed [rad/s] or tilt [rad]
+    real(wp), intent(in) :: value !! load [N], speed [rad/s], tilt [rad] or supply over p_a [Pa]
     type(operating_point_type) :: changed
 
     changed = point
@@ -101,6 +108,8 @@ contains
       changed%load(:translations) = value*self%direction
     case (limit_speed)
       changed%speed = value
+    case (limit_supply)
+      changed%supply = value/self%supply
     case default
       changed%place(3 + self%axis) = value
     end select
@@ -158,19 +167,21 @@ contains
     temperature = max(answer%heat%whole%maximum_film_temperature, answer%heat%whole%maximum_top_foil_temperature)
   end function hottest_place
 
-  !> The value to try next: a larger load or tilt or a lower speed while there is reserve; from
-  !> beyond the limit a smaller load, a higher speed, no tilt.
+  !> The value to try next: a larger load or tilt or a lower speed or supply while there is reserve; from
+  !> beyond the limit a smaller load, a higher speed or supply, no tilt.
   pure real(wp) function next_value(self, value, left) result(next)
     class(limit_type), intent(in) :: self !! the limit
-    real(wp), intent(in) :: value !! load [N], speed [rad/s] or tilt [rad]
+    real(wp), intent(in) :: value !! load [N], speed [rad/s], tilt [rad] or supply over p_a [Pa]
     real(wp), intent(in) :: left  !! reserve there [1]
+    real(wp), parameter :: least_supply = 1.0e-3_wp !! over p_a, before none is tried [1]
     real(wp) :: tilt
 
     select case (self%kind)
     case (limit_load)
       next = value*merge(growth, 1.0_wp/growth, left > 0.0_wp)
-    case (limit_speed)
+    case (limit_speed, limit_supply)
       next = value*merge(1.0_wp/growth, growth, left > 0.0_wp)
+      if (self%kind == limit_supply .and. next < least_supply*self%pressure_around) next = 0.0_wp
     case default
       next = 0.0_wp
       if (.not. left > 0.0_wp) return
@@ -180,19 +191,19 @@ contains
     end select
   end function next_value
 
-  !> Where the reserve would be none if it went on as its tangent does: over the logarithm of a load or speed, as the film is next
+  !> Where the reserve would be none if it went on as its tangent does: over the logarithm of a load, speed or supply, as the film is next
   !> to a power of either; the value itself where the slope says nothing.
   pure real(wp) function aimed_value(self, value, left, slope) result(aim)
     class(limit_type), intent(in) :: self !! the limit
-    real(wp), intent(in) :: value !! load [N], speed [rad/s] or tilt [rad]
+    real(wp), intent(in) :: value !! load [N], speed [rad/s], tilt [rad] or supply over p_a [Pa]
     real(wp), intent(in) :: left  !! reserve there [1]
     real(wp), intent(in) :: slope !! of the reserve [1/unit]
     real(wp), parameter :: longest = 3.0_wp !! logarithm of a step [1]
 
     aim = value
     if (.not. abs(slope) > 0.0_wp) return
-    if (self%kind == limit_speed .or. self%kind == limit_load) then
-      aim = value*exp(max(-longest, min(longest, -left/(slope*value))))
+    if (any(self%kind == [limit_speed, limit_load, limit_supply])) then
+      if (abs(value) > 0.0_wp) aim = value*exp(max(-longest, min(longest, -left/(slope*value))))
     else
       aim = value - left/slope
     end if
@@ -215,6 +226,8 @@ contains
         end if
       case (limit_speed)
         call add_result(list, 'lift_off_speed_rpm', value/rpm)
+      case (limit_supply)
+        call add_result(list, 'lift_off_supply_pressure', self%pressure_around + value)
       case default
         call add_result(list, 'misalignment_allowance', value)
       end select
@@ -240,10 +253,11 @@ contains
   !> From where to where a step leads, for the lines that say how far a long run is; empty where both are the same in their digits.
   pure function course(self, from, to) result(words)
     class(limit_type), intent(in) :: self !! the limit
-    real(wp), intent(in) :: from, to !! loads [N], speeds [rad/s] or tilts [rad]
-    character(len=:), allocatable :: words, unit
-    real(wp) :: scale
+    real(wp), intent(in) :: from, to !! loads [N], speeds [rad/s], tilts [rad] or supplies [Pa]
+    character(len=:), allocatable :: words, unit, first, last
+    real(wp) :: scale, zero
 
+    zero = 0.0_wp
     select case (self%kind)
     case (limit_load)
       scale = 1.0_wp
@@ -251,12 +265,18 @@ contains
     case (limit_speed)
       scale = 1.0_wp/rpm
       unit = ' rpm'
+    case (limit_supply)
+      scale = bars
+      zero = self%pressure_around
+      unit = ' bar'
     case default
       scale = milliradians
       unit = ' mrad'
     end select
     words = ''
-    if (text(from*scale, 4) /= text(to*scale, 4)) words = ' from '//text(from*scale, 4)//' to '//text(to*scale, 4)//unit
+    first = text((from + zero)*scale, 4)
+    last = text((to + zero)*scale, 4)
+    if (first /= last) words = ' from '//first//' to '//last//unit
   end function course
 
   !> The limit as a sentence without its end.
@@ -279,6 +299,8 @@ contains
         end if
       case (limit_speed)
         sentence = 'lift-off speed: '//text(value/rpm, 6)//' rpm'
+      case (limit_supply)
+        sentence = 'lift-off supply pressure: '//text((value + self%pressure_around)*bars, 6)//' bar absolute'
       case default
         sentence = 'misalignment allowance: '//text(value*milliradians, 6)//' mrad about '// &
                    merge('x', 'y', self%axis == 1)
@@ -295,10 +317,17 @@ contains
     end if
   end function words
 
+  !> Whether the film is thicker than the limit without any supply.
+  elemental logical function needs_none(self, point)
+    class(limit_type), intent(in) :: self !! the limit
+    type(operating_point_type), intent(in) :: point !! of an answer with reserve
+    needs_none = self%kind == limit_supply .and. .not. point%supply > 0.0_wp
+  end function needs_none
+
   !> Says that no value tried had any reserve, the last of which the bearing is at.
   function never_within(self, bearing) result(sentence)
     class(limit_type), intent(in) :: self !! the limit
-    !> at the lightest load, the highest speed or without tilt
+    !> at the lightest load, the highest speed or supply, or without tilt
     type(bearing_system_type), intent(in) :: bearing
     character(len=:), allocatable :: sentence
     type(bearing_answer_type) :: answer
@@ -315,6 +344,9 @@ contains
       case (limit_speed)
         sentence = 'the asperities carry more than contact_part of the load at every speed '// &
                    'tried, up to '//text(value/rpm, 3)//' rpm'
+      case (limit_supply)
+        sentence = sentence//' at every supply pressure tried, up to '// &
+                   text((value + self%pressure_around)*bars, 3)//' bar absolute'
       case default
         sentence = sentence//' without any tilt about '//merge('x', 'y', self%axis == 1)
       end select

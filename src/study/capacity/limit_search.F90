@@ -1,11 +1,11 @@
 #include "gfb_petsc.h"
-!> The load, speed or tilt at which film or asperities reach a limit: along the branch of equilibria from a given one, every trial
+!> The load, speed, tilt or supply at which film or asperities reach a limit: along the branch of equilibria from a given one, every trial
 !> an equilibrium on that branch.
 !>
 !> At an answer \( x \) at the value \( v \) one solution by the factors at hand gives the branch's tangent,
 !> \( x' = -f_x^{-1} f_v \). The reserve \( r \) falls along it by \( r' = r_x x' + r_v \): where \( r + r' \Delta v = 0 \) the limit
-!> is tried next, from \( x + x' \Delta v \), which is Newton's method for the limit. No step more than doubles or halves a load or a
-!> speed; once the limit lies between two answers, a step that would leave them is one of false position.
+!> is tried next, from \( x + x' \Delta v \), which is Newton's method for the limit. No step more than doubles or halves a load, a
+!> speed or a supply; once the limit lies between two answers, a step that would leave them is one of false position.
 module gfb_limit_search
   use petscvec
   use gfb_kinds, only: wp
@@ -29,7 +29,7 @@ module gfb_limit_search
   integer, parameter :: most_steps = 30           !! before the limit is passed
   integer, parameter :: most_steps_back = 15      !! from beyond the limit: to a 33,000th of the load
   integer, parameter :: most_trials = 40          !! between two values on both sides
-  real(wp), parameter :: tolerance = 1.0e-9_wp    !! of load, speed or tilt, relative [1]
+  real(wp), parameter :: tolerance = 1.0e-9_wp    !! of load, speed, tilt or supply, relative [1]
   real(wp), parameter :: settled = 1.0e-10_wp     !! reserve that needs no other trial [1]
   real(wp), parameter :: at_limit = 1.0e-6_wp     !! reserve that is none [1]
   real(wp), parameter :: shift = 1.0e-4_wp        !! of what is looked for, for derivatives, over the longest step [1]
@@ -270,6 +270,8 @@ contains
     found = limit%results(bearing%point, reached)
     if (reached) then
       call log%line(limit%words(bearing))
+    else if (limit%needs_none(bearing%point)) then
+      call log%line(limit%words(bearing)//': it keeps smallest_gap without any supply')
     else if (report%converged()) then
       call log%warning(limit%words(bearing)//', not at the limit: answers jump across it')
     else

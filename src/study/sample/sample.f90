@@ -41,7 +41,8 @@ module gfb_sample
   character(len=name_length), parameter :: shown(*) = [character(len=name_length) :: &
     'minimum_gap', 'eccentricity_x', 'eccentricity_y', 'force_x', 'force_y', 'friction_torque', &
     'maximum_pressure', 'stiffness_xx', 'stiffness_yy', 'loading_stiffness', 'maximum_force', &
-    'dissipated_energy', 'load_capacity', 'lift_off_speed_rpm', 'misalignment_allowance', &
+    'dissipated_energy', 'load_capacity', 'lift_off_speed_rpm', 'lift_off_supply_pressure', &
+    'misalignment_allowance', &
     'shaft_temperature', 'maximum_film_temperature', 'maximum_top_foil_temperature', &
     'running_clearance']
 

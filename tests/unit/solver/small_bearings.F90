@@ -59,7 +59,7 @@ contains
     if (allocated(error)) error stop 'a wrong mesh in a test'
     if (present(place)) bearing%point%place(:2) = place
     allocate (unknown(bearing%local_size()), source=0.0_wp)
-    call bearing%put_pressure(spread(scene%gas%ambient_pressure, 1, bearing%film_nodes()), unknown)
+    call bearing%put_gas_at_rest(unknown)
     call bearing%set_unknowns(unknown)
     call create_newton(newton, bearing, 'bearing_', newton_settings_type(1.0e-12_wp, 1.0e-12_wp, 60), &
                        run_log_type(.false., .false.))

@@ -14,6 +14,7 @@ from gfb.tool import stop
 FIELDS = ("pressure", "gap", "deflection")
 WORDS = {"pressure": "absolute pressure", "gap": "film thickness", "deflection": "foil deflection"}
 GROOVE = {"color": "k", "linewidth": 0.5, "alpha": 0.5}  # a line along a groove
+ORIFICE = {"marker": "o", "color": "none", "markeredgecolor": "k", "markersize": 4.0, "markeredgewidth": 0.8, "zorder": 4}  # an orifice
 ROUND_OFF = 1.0e-9  # of the bearing's length: a row nearer to z = 0 is the midplane
 
 
@@ -101,6 +102,7 @@ def draw_film(path, file):
         draw_edges(lines, theta, shown, axial)
         mark_load((chart, lines), film, scene)
         mark_grooves(chart, film, scene)
+        mark_holes(chart, film, scene)
         if name == "gap":
             mark_thinnest(chart, lines, film, values, unit)
         lines.set_ylabel(f"{WORDS[name]} [{unit}]")
@@ -137,6 +139,12 @@ def mark_grooves(chart, film, scene):
         theta, along = numpy.degrees([angle for angle, _ in line]), [1.0e3*place for _, place in line]
         theta = film.theta[0] + (theta - film.theta[0]) % 360.0
         chart.plot(*broken(theta, numpy.array(along), numpy.flatnonzero(numpy.abs(numpy.diff(theta)) > 180.0) + 1), **GROOVE)
+
+
+def mark_holes(chart, film, scene):
+    """A circle at every orifice."""
+    for theta, along in scene.holes:
+        chart.plot(film.theta[0] + (theta - film.theta[0]) % 360.0, 1.0e3*along, **ORIFICE)
 
 
 def mark_thinnest(chart, lines, film, values, unit):

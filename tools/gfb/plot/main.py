@@ -43,6 +43,7 @@ a film or a foil gives the picture load, speed, model and natural frequencies.
 import argparse
 import contextlib
 import pathlib
+from collections.abc import Sequence
 
 import numpy
 
@@ -65,13 +66,16 @@ USUAL_OF_MACHINES = ("minimum_gap_", "power_loss_", "growth_rate", "whirl_freque
 USUAL_OF_LIMITS = {  # what is looked for, and what it makes of the bearing
     "load_capacity": ("load_capacity", "load_capacity_coefficient", "attitude_angle", "friction_torque"),
     "lift_off_speed_rpm": ("lift_off_speed_rpm", "minimum_gap", "attitude_angle", "friction_torque"),
+    "lift_off_supply_pressure": ("lift_off_supply_pressure", "supply_flow", "supply_power", "axial_gap", "attitude_angle"),
     "misalignment_allowance": ("misalignment_allowance", "attitude_angle", "maximum_pressure", "friction_torque")}
+USUAL_OF_SUPPLY = ("minimum_gap", "supply_flow", "axial_force", "stiffness_zz", "stiffness_xx", "supply_power", "maximum_pressure")
+MOST_USUAL = 4  # of these
 OF_FILMS = {polar.KIND: polar.draw, heat.KIND: heat.draw_film}  # beside what is drawn unasked
 ROUND_OFF = 1.0e-12  # of the largest number of a unit: a smaller one is zero
 USUAL_OF_ONE = ("force_x", "force_y", "axial_force", "eccentricity_x", "eccentricity_y", "axial_eccentricity", "axial_gap",
                 "attitude_angle", "minimum_gap", "minimum_gap_midplane", "minimum_gap_edge", "maximum_pressure", "minimum_pressure",
                 "torque_x", "torque_y", "friction_torque", "power_loss", "critical_mass", "whirl_ratio", "load_capacity", "load_capacity_coefficient", "lift_off_speed_rpm",
-                "misalignment_allowance")
+                "lift_off_supply_pressure", "misalignment_allowance", "supply_flow", "supply_power", "choked_orifices", "backflow_orifices")
 
 
 def main():
@@ -298,8 +302,10 @@ def draw_history(path, file, columns, together=False):
     parameter = swept(file)
     if not columns:
         alone = any(data.shape == (1,) for data in history.values())
-        usual = USUAL_OF_ONE if alone else USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
+        usual: Sequence[str] = USUAL_OF_ONE if alone else USUAL_OF_TILT if parameter in ("tilt_x", "tilt_y") else USUAL
         if not alone:
+            if "supply_flow" in history:
+                usual = [name for name in USUAL_OF_SUPPLY if name in history][:MOST_USUAL]
             usual = next((names for limit, names in USUAL_OF_LIMITS.items() if limit in history), usual)
         columns = [name for name in usual if name in history]
         if not columns:  # of a machine: each result of each bearing
@@ -313,9 +319,8 @@ def draw_history(path, file, columns, together=False):
         return draw_table(path, file, columns)
     if parameter is None and "step" in history:
         along, label = history["step"][...], "load step"
-    elif parameter is not None and parameter in history:
-        along, unit = readable(history[parameter])
-        label = named(parameter, unit)
+    elif parameter is not None and parameter in history or "key_value" in history:
+        along, label = heat.along_of(history, parameter, used_keys(file))
     else:
         along, label = numpy.arange(1, len(history[columns[0]]) + 1), "row"
     charted = charts_of(history, columns, together)

@@ -4,7 +4,7 @@ import numpy
 from matplotlib import pyplot
 
 from gfb.plot.colours import round_numbers
-from gfb.plot.film import ROUND_OFF, WORDS, read_film
+from gfb.plot.film import ORIFICE, ROUND_OFF, WORDS, read_film
 from gfb.plot.scene import scene_of
 from gfb.tool import stop
 
@@ -25,6 +25,7 @@ def draw(path, file):
     for chart, name in zip(axes[0], names):
         draw_field(chart, film, name)
         mark_load(chart, scene)
+        mark_holes(chart, scene)
         if name == "gap":
             mark_thinnest(chart, film)
     words = dict(entry[::-1] for chart in axes[0] for entry in zip(*chart.get_legend_handles_labels()))
@@ -71,6 +72,13 @@ def mark_load(chart, scene):
     tip = origin + LOAD*(low - origin)
     chart.annotate("", (angle, tip), (angle, origin), arrowprops={"arrowstyle": "-|>", "color": "k", "linewidth": 1.6}, annotation_clip=False)
     chart.plot([], [], "k-", linewidth=1.6, marker=">", markersize=5, label="load on the shaft")
+
+
+def mark_holes(chart, scene):
+    """Where orifices are, on the outer circle."""
+    angles = sorted({theta % 360.0 for theta, _ in scene.holes})
+    if angles:
+        chart.plot(numpy.radians(angles), [chart.get_ylim()[1]]*len(angles), **ORIFICE, linestyle="none", clip_on=False, label="orifices")
 
 
 def mark_thinnest(chart, film):

@@ -4,7 +4,7 @@ import numpy
 from matplotlib import pyplot
 
 from gfb.plot.colours import around_zero, draw_bar, levels_of, look_of, round_numbers
-from gfb.plot.film import GROOVE, ROUND_OFF, WORDS, readable
+from gfb.plot.film import GROOVE, ORIFICE, ROUND_OFF, WORDS, readable
 from gfb.plot.foil import round_scale, shape_of
 from gfb.plot.scene import scene_of
 from gfb.report.thinnest import node_of_thinnest
@@ -50,6 +50,8 @@ def draw_ring(path, file, words=WORDS, look=look_of, bounds=lambda values: (valu
         for nodes in sectors:
             chart.contourf(points[nodes, 0], points[nodes, 1], values[nodes], levels=levels, extend=beyond, **shades)
             draw_outline(chart, points[nodes])
+        for theta, radius in scene.holes:
+            chart.plot(1.0e3*radius*numpy.cos(numpy.radians(theta)), 1.0e3*radius*numpy.sin(numpy.radians(theta)), **ORIFICE)
         if name == "gap":
             pad = fields["pad"][...] if "pad" in fields else numpy.zeros(len(values))
             thinnest = node_of_thinnest(values, fields["theta"][...], numpy.hypot(points[:, 0], points[:, 1]), pad, True)[0]

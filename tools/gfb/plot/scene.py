@@ -19,7 +19,7 @@ WORDS = {"speed_rpm": "speed", "attitude_angle": "attitude angle", "load_angle":
          "force_x": "force along x",
          "force_y": "force along y", "tilt_x": "tilt about x", "tilt_y": "tilt about y", "maximum_pressure": "largest pressure, absolute",
          "minimum_pressure": "smallest pressure, absolute", "axial_gap": "axial gap", "axial_force": "axial force",
-         "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed"}
+         "load_capacity_coefficient": "coefficient", "lift_off_speed_rpm": "lift-off speed", "lift_off_supply_pressure": "lift-off supply pressure"}
 MOVING = ("transient", "periodic")  # analyses in which the film's force changes and the load stays
 NEAR = 1.0e-4  # of the film's force: a load that differs less is it
 MOST_PADS = 1000  # more are none of gfb
@@ -36,6 +36,7 @@ class Scene:
     begins: tuple = (0.0,)    # theta where each pad begins [deg]
     frequencies: dict = dataclasses.field(default_factory=dict)  # mode_1: natural frequency [Hz]
     grooves: tuple = ()                 # lines along grooves, points (theta [rad], z or radius [m])
+    holes: tuple = ()                   # (theta [deg], z or radius [m]) of the orifices that feed the film
 
     def title(self, path):
         """The case's name, and these words."""
@@ -66,8 +67,10 @@ def read_scene(file):
         return scene
     scene.radius = number(keys, "bearing", "radius")
     scene.begins = tuple(map(math.degrees, leading_edges(keys)))
-    if ("grooves", "on") in keys:
-        scene.grooves = tuple(groove_lines(Bearing(Case.parse(text_of(file["scene/used"][()])))))
+    if {("grooves", "on"), ("feed", "kind")} & set(keys):
+        bearing = Bearing(Case.parse(text_of(file["scene/used"][()])))
+        scene.grooves = tuple(groove_lines(bearing))
+        scene.holes = tuple((math.degrees(angle), along) for angle, along in bearing.holes().values())
     words, history = [], file["history"]
     if "force_x" in summary and "force_y" in summary:
         force = complex(summary["force_x"][()], summary["force_y"][()])

@@ -25,6 +25,10 @@ class Results:
         value = self.summary.get(name, {}).get("value")
         return value if isinstance(value, float) and math.isfinite(value) else None
 
+    def count(self, name):
+        """A number of things; 0 where there is none."""
+        return round(self.value(name) or 0.0)
+
     def key(self, name, default=None):
         """A number of the case; what is none, of a case that is not gfb's, is not there."""
         value = self.case.get(name)

@@ -6,7 +6,7 @@ import math
 from gfb.report.answer import KELVIN, THINNEST, Results, direction, place_words
 from gfb.report.machine import is_machine, machine_glance
 from gfb.report.margin import ONSET
-from gfb.report.verdict import FILM, HEAT, STRESS, all_margins
+from gfb.report.verdict import FILM, HEAT, LOWEST_SUPPLY, STRESS, all_margins
 
 ROUND_OFF = 1.0e-9  # of a flow [Pa m3/s]
 
@@ -17,7 +17,7 @@ def glance(summary, case, place=None, frequency=None, machine=None):
     results = Results(summary, case, place, frequency, machine)
     if is_machine(case):
         return list(machine_glance(results))
-    return [row for question in (film, centre, load, limits, losses, grooves, balance, vibrations, rotor, foils, heat) for row in question(results)]
+    return [row for question in (film, centre, load, limits, losses, supply, grooves, balance, vibrations, rotor, foils, heat) for row in question(results)]
 
 
 def film(results):
@@ -76,6 +76,9 @@ def limits(results):
         if results.value(name) is not None:
             margin, is_broken = against(results, name)
             yield words, f"{results.value(name):.4g} N" if name == "load_capacity" else f"{results.value(name):,.0f} rpm", (margin + ends).removeprefix("; "), is_broken
+    if results.value(LOWEST_SUPPLY) is not None:
+        margin, is_broken = against(results, LOWEST_SUPPLY)
+        yield "lift-off supply pressure", f"{1.0e-5*results.value(LOWEST_SUPPLY):.4g} bar", (margin + ends).removeprefix("; "), is_broken
     if results.value("misalignment_allowance") is not None:
         yield "misalignment left", results.words("misalignment_allowance"), ends.lstrip("; "), False
 
@@ -84,6 +87,15 @@ def losses(results):
     """Power and torque."""
     if results.value("power_loss") is not None:
         yield "power loss", f"{results.value('power_loss'):.4g} W", f"friction torque {results.words('friction_torque')}", False
+
+
+def supply(results):
+    """What feeds the film: how much gas, the power to compress it, how its orifices do."""
+    if results.value("supply_flow") is None:
+        return
+    choked, back = (results.count(f"{name}_orifices") for name in ("choked", "backflow"))
+    more = [f"{results.words('supply_power')} to compress it"] + [f"{choked} orifices choked"]*bool(choked) + [f"gas leaves the film through {back}"]*bool(back)
+    yield "supply", results.words("supply_flow"), ", ".join(more), False
 
 
 def grooves(results):
@@ -112,7 +124,8 @@ def vibrations(results):
     critical = results.value("critical_mass")
     if critical is not None:
         margin, is_broken = against(results, "critical_mass")
-        yield "critical mass", f"{critical:.4g} kg", margin or "a heavier rotor whirls", is_broken
+        heavier = "a heavier rotor whirls" if results.value("axial_gap") is None else "a heavier runner hammers along the axis"
+        yield "critical mass", f"{critical:.4g} kg", margin or heavier, is_broken
 
 
 def held_at(results):

@@ -29,6 +29,7 @@ from gfb.program import call, find_program
 from gfb.report.answer import LAST_STATE, Results, ended
 from gfb.report.glance import glance
 from gfb.report.machine import is_machine, machine_picture, read_tables, sizes_of
+from gfb.report.orifices import HEADS, orifice_rows
 from gfb.report.sensitivities import sensitivities
 from gfb.report.sketch import sketch
 from gfb.report.thinnest import place_of_thinnest
@@ -39,7 +40,7 @@ from gfb.tool import command_beside, draw_into_files, parser_of, say, stop
 
 PAGE = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                           trim_blocks=True, lstrip_blocks=True)
-PAGE.globals |= {"font": FONT, "colour_of": colour_of, "last_state": LAST_STATE}
+PAGE.globals |= {"font": FONT, "colour_of": colour_of, "last_state": LAST_STATE, "orifice_heads": HEADS}
 ENDINGS = (".h5", ".summary")
 SURFACES = {"film": "the film", "top_foil": "the top foil", "bump_foil": "the bump foil"}
 OF_MACHINES = {"machine": "the machine to scale, its static line, moments along it", "shapes": "its modes in space", "response": "response to unbalance",
@@ -136,7 +137,7 @@ def read_run(stem, gfb, title="", pictures=True, curve=False, seconds=0):
         found = Results(summary, used, place, machine=machine)
         drawn_case = machine_picture(used, sizes_of(machine, summary)) if is_machine(used) else sketch(summary, used, place)
         margins = margins_of(found)
-        about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency, machine), "sketch": drawn_case, "place": place, "heat": heat_rows(summary),
+        about = {"margins": margins, "open_questions": not_computed(found, margins), "glance": glance(summary, used, place, frequency, machine), "sketch": drawn_case, "place": place, "heat": heat_rows(summary), "orifices": orifice_rows(found),
                  "sensitivities": sensitivities(summary, used, swept_keys(used, swept))}
         pad = place.pad if place else 0 if machine else thinnest_pad(summary)
     count = len(machine.bearings) if machine else 0

@@ -16,6 +16,8 @@ LAND, RUNNER = 104.0, 8.0  # of a pad that is cut: height of its land, and of th
 WIDE = 200.0       # of the view along the axis; to its right stands the one from the side
 MOST_PADS = 1000   # that are drawn: more are none of gfb
 MOST_BUMPS = 2000  # of all pads together
+MOST_HOLES = 1000  # of all rows together
+HOLE = 1.6         # radius of an orifice in a picture
 
 
 def factor_of(size, usual, low, high):
@@ -96,6 +98,33 @@ class Bearing:
         if not self.is_ring and self.case.get("bump_foil%fixed_edge", "trailing") == "trailing":
             found = [self.arc - one for one in reversed(found)]
         return [ramp*self.arc + one for one in found if -0.01 <= one <= self.arc + 0.01], half or 0.25*(pitch or pitches[0])
+
+    def holes(self):
+        """{number: (theta, z or radius)} of the orifices on pads, counted row by row as the program does; none where a wall feeds, or nothing."""
+        rows, listed = self.listed("feed%row_positions"), self.listed("feed%orifice_angles")
+        count = len(listed) or int(self.size("feed%orifices") or 0)
+        if self.case.get("feed%kind") != "orifices" or not 0 < count*len(rows) <= MOST_HOLES:
+            return {}
+        pitch, shift = (self.arc if self.is_ring else TURN)/count, self.number("feed%row_shift", 0.0)
+        first = self.number("feed%first_orifice_angle", 0.5*pitch)
+        found: dict[int, tuple[float, float]] = {}
+        for row, along in enumerate(rows):
+            for i in range(count):
+                angle, number = (listed[i] if listed else first + pitch*i) + shift*row, row*count + i + 1
+                if self.is_ring:  # each sector has its own
+                    found |= {pad*count*len(rows) + number: (begin + angle, along) for pad, begin in enumerate(self.begins)}
+                elif any((angle - begin) % TURN <= self.arc for begin in self.begins):  # none between pads
+                    found[number] = (angle % TURN, along)
+        return dict(sorted(found.items()))
+
+    def supply_words(self):
+        """What feeds the film, in words; empty where nothing does."""
+        kind, pressure = self.case.get("feed%kind"), self.size("feed%supply_pressure")
+        if kind not in ("orifices", "porous") or pressure is None:
+            return ""
+        size = self.size("feed%orifice_diameter" if kind == "orifices" else "feed%wall_thickness")
+        what = f"{len(self.holes())} orifices" if kind == "orifices" else "porous wall"
+        return f"{what}{f' of {1.0e3*size:.3g} mm' if size else ''}, {1.0e-5*pressure:.4g} bar absolute"
 
     def bore(self, angle):
         """What a bore takes off the gap [m]."""
@@ -199,6 +228,8 @@ def draw_journal(bearing, with_side):
                 drawing.add("bump line", "bump_foil contact strip_load", "M{:.1f},{:.1f} Q{:.1f},{:.1f} {:.1f},{:.1f}".format(*feet[0], *top, *feet[1]))
         if bearing.foil != "rigid":
             drawing.add("foil line", "top_foil model thermal foil_damping", line(surface))
+        for angle in sorted({angle for angle, _ in bearing.holes().values() if (angle - begin) % TURN <= bearing.arc}):
+            drawing.add("hole line", "feed", line([place(foil(angle), angle), place(foil(angle) + tall + BAND + 3.0, angle)]))
     e = bearing.results.pair("operation%eccentricity") or (0.0, 0.0)
     off = scale*larger*math.hypot(*e)
     x, y = place(min(off, FARTHEST), math.atan2(-e[1], -e[0]))
@@ -210,8 +241,7 @@ def draw_journal(bearing, with_side):
         drawing.arrow("load", "operation", place(8.0, angle), place(46.0, angle))
         if bearing.case.get("scene%analysis") == "load_capacity":
             drawing.arrow("motion", "capacity", place(46.0, angle), place(SHAFT - 2.0, angle))
-    drawing.notes += [("note load", "→ load")]*bool(both and math.hypot(*both) > 0.0) + [("note", "x →, y ↑, turns ↺")]
-    drawing.notes.append(("note groove", groove_words(bearing)))
+    drawing.notes += [("note load", "→ load")]*bool(both and math.hypot(*both) > 0.0) + [("note", "x →, y ↑, turns ↺"), ("note hole", bearing.supply_words()), ("note groove", groove_words(bearing))]
     if with_side:
         long = side_of_journal(drawing, bearing, scale)
         drawing.notes.append(("note", f"radius {1.0e3*bearing.radius:.4g} mm{long}"))
@@ -250,6 +280,9 @@ def side_of_journal(drawing, bearing, scale):
         drawing.add("pad", "bearing pads bore", line([*near, *((x, y + sign*BAND) for x, y in reversed(near))], True))
     for part in itertools.chain(*(shown_parts(one, lambda angle, _: math.cos(angle) >= 0.0) for one in groove_lines(bearing))):
         drawing.add("groove line", "grooves", line([(0.5*(begin + end) + scale*along, 100.0 - radius*math.sin(angle)) for angle, along in part]))
+    for angle, along in bearing.holes().values():
+        if math.cos(angle) >= -1.0e-9 and 2.0*abs(along) < length:  # those on the side that is seen
+            drawing.add("hole", "feed", circle(0.5*(begin + end) + scale*along, 100.0 - radius*math.sin(angle), HOLE))
     lean = 0.06*(end - begin) if bearing.case.get("scene%analysis") == "misalignment_allowance" or "operation%tilt" in bearing.case else 0.0
     drawing.add("axis line", "operation capacity", line([(begin - 16.0, 100.0 + lean), (end + 16.0, 100.0 - lean)]))
     return f", length {1.0e3*length:.4g} mm" + (f", half angle {math.degrees(slope):.3g} deg" if slope else "")
@@ -272,8 +305,10 @@ def draw_ring(bearing, with_side):
             drawing.add("bump line", "bump_foil contact", line([place(scale*inner, begin + crest), place(RING, begin + crest)]))
     for one in groove_lines(bearing):
         drawing.add("groove line", "grooves", line([place(scale*along, angle) for angle, along in one]))
-    drawing.notes += [("note load", "↓ load on the runner")]*(with_side and bool(bearing.number("operation%axial_load"))) + [("note", "x →, y ↑, turns ↺")]
-    drawing.notes.append(("note groove", groove_words(bearing)))
+    for angle, along in bearing.holes().values():
+        x, y = place(scale*along, angle)
+        drawing.add("hole", "feed", circle(x, y, HOLE))
+    drawing.notes += [("note load", "↓ load on the runner")]*(with_side and bool(bearing.number("operation%axial_load"))) + [("note", "x →, y ↑, turns ↺"), ("note hole", bearing.supply_words()), ("note groove", groove_words(bearing))]
     if with_side:
         larger = section_of_ring(drawing, bearing, inner, part)
         drawing.notes.append(("note", f"radius {1.0e3*inner:.4g} to {1.0e3*bearing.radius:.4g} mm, {bearing.count} pads of {math.degrees(bearing.arc):.4g} deg"))

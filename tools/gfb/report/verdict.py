@@ -15,6 +15,7 @@ from gfb.report.margin import ONSET, Margin, compared
 
 OWN_TOUCH_DOWN = 2.0e-4  # of the clearance: at or below it `touch_down_gap` is the solver's own, no limit of a design
 AT_LIMIT = ("load_capacity", "misalignment_allowance")  # analyses that end where film or heat is at its limit
+LOWEST_SUPPLY = "lift_off_supply_pressure"  # at which the film is at its limit, too
 FILM, HEAT, STRESS = "film_margin", "temperature_margin", "stress_margin"
 WORST = "at the worst point"  # of a sweep
 
@@ -51,7 +52,7 @@ def film(results: Results, smallest_gap: float | None) -> Iterator[Margin]:
     """The thinnest film, of a shaft that moves the thinnest of all time."""
     over_time = results.value("minimum_gap_over_time")
     gap = results.value("minimum_gap") if over_time is None else over_time
-    if gap is None or results.case.get("scene%analysis") in AT_LIMIT:
+    if gap is None or results.case.get("scene%analysis") in AT_LIMIT or results.value(LOWEST_SUPPLY) is not None:
         return
     words = film_words(gap, place_words(results) if over_time is None else "")
     clearance, touch_down = results.key("bearing%clearance", 0.0) or 0.0, results.key("solver%touch_down_gap", 0.0) or 0.0
@@ -79,7 +80,12 @@ def load(results: Results) -> Iterator[Margin]:
 
 
 def lift_off(results: Results) -> Iterator[Margin]:
-    """Lift-off against the case's speed."""
+    """Lift-off against the case's speed, or its supply: by how much that is above the gas around."""
+    lowest, supply, around = results.value(LOWEST_SUPPLY), results.key("feed%supply_pressure"), results.key("gas%ambient_pressure")
+    if lowest is not None and supply and around:
+        words, has = f"lift-off at a supply of {1.0e-5*lowest:.4g} bar", f"it has {1.0e-5*supply:.4g} bar"
+        yield (compared("lift-off", words, has, (supply - around)/(lowest - around), result=LOWEST_SUPPLY) if lowest > around else
+               Margin("lift-off", "no supply is needed", has, result=LOWEST_SUPPLY))
     off, speed = results.value("lift_off_speed_rpm"), results.key("operation%speed_rpm")
     if off is not None and off > 0.0:
         words = f"lift-off at {off:,.0f} rpm"
@@ -94,7 +100,8 @@ def whirl(results: Results) -> Iterator[Margin]:
     frequency = results.value("whirl_frequency") or results.value("axial_frequency")
     if critical is not None:
         words = f"critical mass {critical:.4g} kg"
-        yield compared("whirl", words, f"this bearing carries {mass:.4g} kg of the rotor", critical/mass, result="critical_mass") if mass else Margin("whirl", words)
+        axial = results.value("axial_gap") is not None
+        yield compared("hammer" if axial else "whirl", words, f"this bearing carries {mass:.4g} kg of the rotor", critical/mass, result="critical_mass") if mass else Margin("hammer" if axial else "whirl", words)
     if growth is not None:
         how = "" if frequency is None else f" at {frequency/(2.0*math.pi):.4g} Hz"
         ratio = "" if damped is None else f" with a damping ratio of {damped:.3g}"

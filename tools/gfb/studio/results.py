@@ -4,6 +4,7 @@ from nicegui import run as workers
 from nicegui import ui
 
 from gfb.report.main import answer_rows, differences, key_rows, svg_of
+from gfb.report.orifices import HEADS
 from gfb.report.verdict import colour_of, total_power
 from gfb.results import Unreadable
 from gfb.studio import pictures
@@ -156,6 +157,10 @@ def show_answer(run):
                     with ui.element("div"):
                         ui.label(value).classes("value")
                         ui.label(verdict).classes("mistake" if is_bad else "verdict")
+        if run["orifices"]:
+            with ui.expansion("orifices"):
+                ui.table(rows=[dict(zip(HEADS, row, strict=True)) for row in run["orifices"]], row_key=HEADS[0], pagination=0,
+                         columns=[{"name": head, "label": head, "field": head, "align": "right"} for head in HEADS]).props("dense flat hide-bottom")
 
 
 def table_of(rows, runs, first, meaning=False):
