@@ -42,7 +42,7 @@ contains
           if (.not. film%wall%present) cycle
           do element = 1, size(film%element_nodes, 2)
             associate (nodes => film%element_nodes(:, element))
-              total = total + film%copies*sum(wall_shares(film%geometry(element), &
+              total = total + film%copies*sum(wall_shares(film%geometry(element), film%law, &
                                                           film%wall_at(point), &
                                                           unknown(pad%first + nodes)))
             end associate
@@ -56,9 +56,7 @@ contains
       total = sum_over_ranks(total)
       if (size(feed%mouth) > 0) call read_mouths(bearing, point%supply, unknown, total(1), answer)
       answer%flow = total(1)/feed%energy
-      associate (ratio => feed%supply_pressure()/bearing%ambient_pressure)
-        answer%power = total(1)*log(ratio)
-      end associate
+      answer%power = total(1)*feed%work
     end associate
   end function feed_answer
 
