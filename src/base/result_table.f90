@@ -312,6 +312,12 @@ module gfb_result_table
       'that the gas of the film carries out, less what it brings in', asked=.true.), &
     result_type('heat_by_gas_<n>', 'W', number, bearing + machine, &
       'the same of pad n; of a machine of bearing n'), &
+    result_type('heat_by_supply', 'W', number, bearing, &
+      'that gas which is fed in brings, over gas at ambient temperature', &
+      'with `&feed`: that gas which is fed in brings, less what gas carries back into the '// &
+      'supply; both, and `heat_by_gas`, over gas at `ambient_temperature`', asked=.true.), &
+    result_type('heat_by_supply_<n>', 'W', number, bearing + machine, &
+      'the same of pad n; of a machine of bearing n'), &
     result_type('mass_flow_leading_edge', 'kg/s', number, bearing, &
       'that enters the film over the leading edges', asked=.true.), &
     result_type('mass_flow_trailing_edge', 'kg/s', number, bearing, &
@@ -327,7 +333,9 @@ module gfb_result_table
     result_type('energy_imbalance', '1', number, bearing + machine, &
       'power less all heat out of the film, over the power', &
       'power less all heat out of the film, over the power: what the solver left open; of a '// &
-      'machine whose shaft conducts of all films and the shaft'), &
+      'machine whose shaft conducts of all films and the shaft; with `&feed` the supply''s '// &
+      'heat counts as the power, and it is measured by the largest of them, by 1 K of its gas '// &
+      'at least'), &
     result_type('modulus_ratio_top_foil', '1', number, bearing, &
       'modulus of the top foil over its youngs_modulus', &
       'modulus of the top foil at its mean temperature, over its `youngs_modulus`; of several '// &

@@ -247,6 +247,7 @@ contains
       call add_result(list, 'heat_through_bumps', whole%through_bumps)
       call add_result(list, 'heat_to_channel', whole%to_channel)
       call add_result(list, 'heat_by_gas', whole%by_gas)
+      if (heat%is_fed) call add_result(list, 'heat_by_supply', whole%by_supply)
       call add_result(list, 'mass_flow_leading_edge', whole%leading)
       call add_result(list, 'mass_flow_trailing_edge', whole%trailing)
       call add_result(list, 'mass_flow_sides', whole%sides)
@@ -270,6 +271,7 @@ contains
         call add_result(list, 'heat_through_bumps_'//text(i), pad%through_bumps)
         call add_result(list, 'heat_to_channel_'//text(i), pad%to_channel)
         call add_result(list, 'heat_by_gas_'//text(i), pad%by_gas)
+        if (heat%is_fed) call add_result(list, 'heat_by_supply_'//text(i), pad%by_supply)
         if (heat%softens) call add_moduli('_'//text(i), pad)
       end associate
     end do
@@ -568,6 +570,7 @@ contains
       call log%line('heat             '//share('to the shaft', whole%to_shaft)//', '// &
                     share('to the top foil', whole%to_top_foil)//', '// &
                     share('by the gas', whole%by_gas))
+      if (heat%is_fed) call log%line('  of the supply  '//share('brought in', whole%by_supply))
       if (heat%has_cooling) then
         call log%line('  of top foil    '//share('through the bumps', whole%through_bumps)//', '// &
                       share('to the cooling gas', whole%to_channel))

@@ -26,16 +26,28 @@ contains
   subroutine check_feed(keys, scene)
     type(case_keys_type), intent(inout) :: keys !! the keys of the case file
     type(scene_type), intent(in) :: scene !! what the case file asks for
+    logical :: real_gas
 
     if (.not. scene%feed%present .or. .not. scene%general%analysis%has_film) return
     associate (feed => scene%feed, model => scene%model, bearing => scene%bearing, gas => scene%gas)
       call warn_of_low('supply_pressure', feed%supply_pressure)
       call warn_of_low('channel_pressure', feed%channel_pressure)
-      call keys%rule(feed_group, 'kind', scene%thermal%present, 'cannot stand beside &thermal '// &
-                     'in this version')
-      call keys%rule(feed_group, 'kind', any(gas%law%density == &
-                     [density_peng_robinson, density_table]), 'cannot stand beside '// &
-                     'equation_of_state or a table of the gas in this version')
+      real_gas = any(gas%law%density == [density_peng_robinson, density_table])
+      call keys%rule(feed_group, 'kind', real_gas .and. feed%has_orifices(), "must be 'porous' "// &
+                     'beside equation_of_state or a table of the gas in this version')
+      call keys%rule(feed_group, 'supply_temperature', real_gas .and. feed%temperature_given &
+                     .and. .not. scene%thermal%present, 'has no use beside equation_of_state '// &
+                     'or a table of the gas without &thermal: they hold at one temperature')
+      call keys%rule(feed_group, 'supply_pressure', gas%law%density == density_peng_robinson &
+                     .and. feed%supply_pressure >= gas%law%fluid%saturation, 'must be below '// &
+                     text(gas%law%fluid%saturation, 4)//' Pa, at which the gas condenses at '// &
+                     'its temperature')
+      if (gas%law%density == density_table .and. allocated(gas%law%density_curve%place)) then
+        associate (most => maxval(gas%law%density_curve%place))
+          call keys%rule(feed_group, 'supply_pressure', feed%supply_pressure > most, 'must lie '// &
+                         'in the table of the gas, up to '//text(most)//' Pa')
+        end associate
+      end if
       call keys%rule(feed_group, 'kind', bearing%play > 0.0_wp, 'cannot stand beside '// &
                      'axial_play in &bearing in this version')
       call keys%rule('model', 'coupling', model%coupling == coupling_partitioned, &

@@ -16,7 +16,7 @@ module gfb_scene
                               read_dynamics_case, analysis_of_state, read_foil_damping_case, &
                               read_periodic_case, read_rotor_case, read_unbalance_case, &
                               read_transient_case
-  use gfb_feed_case, only: feed_case_type, read_feed_case
+  use gfb_feed_case, only: feed_case_type, read_feed_case, follow_heat
   use gfb_groove_case, only: groove_case_type, read_groove_case
   use gfb_gas_case, only: gas_case_type, read_gas_case
   use gfb_mesh_case, only: mesh_case_type, solver_case_type, read_mesh_case, read_solver_case
@@ -132,6 +132,9 @@ contains
       call read_bump_foil_case(keys, scene%bump_foil, scene%bearing, needs, scene%model%foil)
       call read_thermal_case(keys, scene%thermal, scene%gas, scene%bump_foil, &
                              scene%bearing%row, analysis)
+      if (scene%thermal%present) then
+        call follow_heat(keys, scene%feed, scene%gas, scene%thermal%ambient_temperature)
+      end if
       call read_strip_load_case(keys, scene%strip_load, scene%bump_foil%bumps, analysis)
       call read_contact_case(keys, scene%contact, scene%strip_load, scene%bump_foil, &
                              scene%bearing%clearance, analysis, scene%model%foil)

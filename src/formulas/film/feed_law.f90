@@ -1,10 +1,14 @@
 !> Gas that is fed into a film under pressure: through a porous wall, through orifices.
 !>
-!> Flows are in the film's own unit, mass times \( R_g T_s \): pressure times volume a time. Index s
-!> is the supply's, p the pressure of the film.
+!> Flows are in the film's own unit, pressure times volume a time: mass times \( R_g T_r \) where
+!> the film's gas counts at the temperature \( T_r \), which is the supply's own where nothing else
+!> is said of the film; of any gas \( p_a/\rho_a \). Index s is the supply's, p the pressure of the
+!> film.
 module gfb_feed_law
   use gfb_kinds, only: wp
   use gfb_units, only: pi
+  use gfb_gas_integrals, only: gas_integrals, of_density, of_flow, integrals
+  use gfb_gas_law, only: gas_law_type, gas_state_type, gas_state, density_ideal
   implicit none (type, external)
   private
   public :: supply_at, wall_source, orifice_flow, largest_orifice_flow, critical_ratio, rim_balance
@@ -22,6 +26,8 @@ module gfb_feed_law
     real(wp) :: thickness = 0.0_wp       !! H, as the flow through it counts it [m]
     real(wp) :: resistance = 0.0_wp      !! A, viscosity over permeability [Pa s/m2]
     real(wp) :: inertia = 0.0_wp         !! B over Rg T_s [1/m over J/kg]
+    real(wp) :: density = 1.0_wp         !! of its gas over that of the law, T_r/T_s [1]
+    real(wp) :: temperature = 0.0_wp     !! T_s; only a film with heat asks for it [K]
   end type porous_wall_type
 
   !> Holes that are alike.
@@ -34,6 +40,7 @@ module gfb_feed_law
     real(wp) :: diameter = 0.0_wp        !! d [m]
     real(wp) :: mouth = 0.0_wp           !! d_m, of what opens into the film [m]
     logical :: both_ways = .true.        !! gas may leave the film, too
+    real(wp) :: density = 1.0_wp         !! T_r/T_s, see `porous_wall_type` [1]
   end type orifice_type
 
 contains
@@ -50,30 +57,73 @@ contains
 
   !> What a porous wall feeds into the film over it, of an area, and its derivative by the pressure.
   !>
-  !> $$ s = R_g T_s \dot m'' = \frac{2 y}{A + \sqrt{A^2 + 4 B |y|/(R_g T_s)}}, \quad
+  !> $$ s = R_g T_r \dot m'' = \frac{2 y \, T_r/T_s}{A + \sqrt{A^2 + 4 B |y|/(R_g T_s)}}, \quad
   !>    y = \frac{p_s^2 - p^2}{2 H}, \quad A = \mu/\kappa $$
   !>
   !> Darcy's law for an ideal gas of one temperature, with Forchheimer's term for its inertia:
-  !> \( -dp/dn = A u + B \rho u^2 \) through a wall that is thin beside its extent.
-  elemental subroutine wall_source(wall, pressure, source, by_pressure)
+  !> \( -dp/dn = A u + B \rho u^2 \) through a wall that is thin beside its extent. Of any other gas
+  !> \( R_g T_r \) is \( p_a/\rho_a \), and y and A are those of `real_drive`.
+  elemental subroutine wall_source(wall, law, pressure, source, by_pressure)
     type(porous_wall_type), intent(in) :: wall !! behind the film
+    type(gas_law_type), intent(in) :: law !! of the gas
     real(wp), intent(in) :: pressure     !! p of the film [Pa]
     real(wp), intent(out) :: source      !! s [Pa m/s]
     real(wp), intent(out) :: by_pressure !! its derivative [m/s]
-    real(wp) :: drive, root, rest
+    real(wp) :: drive, drive_rate, resistance, resistance_rate, root, rest
 
-    drive = (wall%supply_pressure - pressure)*(wall%supply_pressure + pressure)/ &
-            (2.0_wp*wall%thickness)
-    root = sqrt(wall%resistance**2 + 4.0_wp*wall%inertia*abs(drive))
-    rest = wall%resistance + root
-    source = 2.0_wp*drive/rest
-    ! With B the derivative by y is 2/(A + root) - 2 |y| (2 B/root)/(A + root)^2, which is 1/root.
-    by_pressure = -pressure/(wall%thickness*root)
+    if (law%density == density_ideal) then
+      drive = (wall%supply_pressure - pressure)*(wall%supply_pressure + pressure)/ &
+              (2.0_wp*wall%thickness)
+      resistance = wall%resistance
+    else
+      call real_drive(wall, law, pressure, drive, drive_rate, resistance, resistance_rate)
+    end if
+    root = sqrt(resistance**2 + 4.0_wp*wall%inertia*abs(drive))
+    rest = resistance + root
+    source = wall%density*(2.0_wp*drive/rest)
+    ! With B the derivative by y is 2/(A + root) - 2 |y| (2 B/root)/(A + root)^2, which is 1/root;
+    ! that by A is -s/root.
+    if (law%density == density_ideal) then
+      by_pressure = -wall%density*pressure/(wall%thickness*root)
+    else
+      by_pressure = (wall%density*drive_rate - source*resistance_rate)/root
+    end if
   end subroutine wall_source
+
+  !> What drives a gas of any density through a wall, and the wall's resistance, with their
+  !> derivatives by the pressure of the film.
+  !>
+  !> $$ y = \frac{1}{H} \int_p^{p_s} r \, dp, \quad
+  !>    A = \frac{1}{\kappa} \int_p^{p_s} r \, dp \Big/ \int_p^{p_s} \frac{r}{\mu} \, dp $$
+  !>
+  !> so that Darcy's law alone, B = 0, gives \( s = \kappa/H \int r/\mu \, dp \) whatever the
+  !> viscosity does on the way.
+  elemental subroutine real_drive(wall, law, pressure, drive, drive_rate, resistance, &
+                                  resistance_rate)
+    type(porous_wall_type), intent(in) :: wall
+    type(gas_law_type), intent(in) :: law
+    real(wp), intent(in) :: pressure !! p of the film [Pa]
+    real(wp), intent(out) :: drive, drive_rate           !! y [Pa2/m], [Pa/m]
+    real(wp), intent(out) :: resistance, resistance_rate !! A [Pa s/m2], [s/m2]
+    type(gas_state_type) :: gas
+    real(wp) :: integral(integrals), unit
+
+    integral = gas_integrals(law, pressure, wall%supply_pressure)
+    gas = gas_state(law, pressure)
+    unit = wall%resistance/law%viscosity ! 1/kappa, with the viscosity's change by temperature
+    drive = integral(of_density)/wall%thickness
+    drive_rate = -gas%r/wall%thickness
+    resistance = unit*gas%mu
+    resistance_rate = 0.0_wp
+    if (.not. abs(integral(of_flow)) > 0.0_wp) return
+    resistance = unit*integral(of_density)/integral(of_flow)
+    resistance_rate = unit*gas%r*(integral(of_density)/gas%mu - integral(of_flow))/ &
+                      integral(of_flow)**2
+  end subroutine real_drive
 
   !> Flow through an orifice into its mouth, and its derivatives by pressure and gap there.
   !>
-  !> $$ q = R_g T_s \dot m = C_d A(h) p_s \sqrt{R_g T_s} \, \psi(p_d/p_s) $$
+  !> $$ q = R_g T_r \dot m = \frac{T_r}{T_s} C_d A(h) p_s \sqrt{R_g T_s} \, \psi(p_d/p_s) $$
   !>
   !> with the area of the hole \( \pi d^2/4 \), of the curtain \( \pi d_m h \), or of both one
   !> behind the other, \( A_o A_c/\sqrt{A_o^2 + A_c^2} \), which has both as its limits.
@@ -104,7 +154,7 @@ contains
       psi = 0.0_wp
       slope = 0.0_wp
     end if
-    size = orifice%coefficient*orifice%supply_pressure*sqrt(orifice%energy)
+    size = orifice%coefficient*orifice%supply_pressure*sqrt(orifice%energy)*orifice%density
     flow = size*area*psi
     by_pressure = size*area*slope/orifice%supply_pressure
     by_gap = size*area_by_gap*psi
@@ -178,6 +228,9 @@ contains
   !> film's, and the derivatives.
   !>
   !> $$ r = p_d^2 - p_0^2 - \beta \frac{q}{k}, \quad k = \frac{h^3}{24 \mu} $$
+  !>
+  !> In a film of other temperatures \( \mu \) counts as \( \mu(T_m) \, T/T_r \), its density
+  !> with it.
   !>
   !> Around a mouth \( p^2 \) is a logarithm, which no mesh follows: \( \beta \) is what the mean
   !> of a unit source on the rim lacks on this mesh, for an even gap.

@@ -45,7 +45,7 @@ module gfb_gas_law
     real(wp) :: saturated = 0.0_wp        !! the vapour's amount there [mol/m3]
   end type peng_robinson_type
 
-  integer, parameter :: density_ideal = 1
+  integer, parameter, public :: density_ideal = 1
   integer, parameter, public :: density_peng_robinson = 2
   integer, parameter, public :: density_table = 3
 

@@ -40,7 +40,7 @@ contains
     weight = squeeze_weights(geometry, flow, law, pressure, gap, excess, factors)
     residual = 0.0_wp
     do i = 1, size(excess)
-      call wall_source(wall, dot_product(shapes(:, i), pressure), source, rate)
+      call wall_source(wall, law, dot_product(shapes(:, i), pressure), source, rate)
       residual = residual - geometry%area(i)*source*weight(:, i)
     end do
   end function wall_residual
@@ -68,7 +68,7 @@ contains
     do i = 1, size(excess)
       associate (shape => shapes(:, i), area => geometry%area(i), &
                  length => geometry%stream_length(i))
-        call wall_source(wall, dot_product(shape, pressure), source, rate)
+        call wall_source(wall, law, dot_product(shape, pressure), source, rate)
         do b = 1, size(shape)
           by_pressure(:, b) = by_pressure(:, b) - area*rate*shape(b)*weight(:, i)
         end do
@@ -88,8 +88,9 @@ contains
   end subroutine wall_jacobian
 
   !> What a wall feeds into an element, by its nodes [Pa m3/s].
-  pure function wall_shares(geometry, wall, pressure) result(share)
+  pure function wall_shares(geometry, law, wall, pressure) result(share)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
+    type(gas_law_type), intent(in) :: law      !! of the gas
     type(porous_wall_type), intent(in) :: wall !! behind it
     real(wp), intent(in) :: pressure(:) !! absolute pressure at the nodes [Pa]
     real(wp) :: share(size(pressure)) !! without upwinding's part, which adds up to nothing
@@ -99,7 +100,7 @@ contains
     shapes = film_shapes(size(pressure))
     share = 0.0_wp
     do i = 1, size(shapes, 2)
-      call wall_source(wall, dot_product(shapes(:, i), pressure), source, rate)
+      call wall_source(wall, law, dot_product(shapes(:, i), pressure), source, rate)
       share = share + geometry%area(i)*source*shapes(:, i)
     end do
   end function wall_shares

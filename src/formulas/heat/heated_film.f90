@@ -14,24 +14,30 @@
 !> the temperature, the law of the gas holds at a reference temperature. Heat that conducts
 !> straight from shaft to foil is exact so; 6 k/h at each wall would conduct three times too much.
 !> An ideal gas needs no term of dissipation: \( c_p T \mathbf{m} = (c_p/R_g) p \mathbf{Q} \).
+!>
+!> A porous wall that feeds the film adds \( \dot m'' \) to the mass and
+!> \( c_p \max(\dot m'', 0) (T_w - T) \) to the energy: gas enters with the wall's temperature, what
+!> leaves has the film's.
 module gfb_heated_film
   use gfb_kinds, only: wp
   use gfb_film_flow, only: film_flow_type, flow_here
   use gfb_upwind_weight, only: upwind_weight, upwind_weight_derivative
   use gfb_film_geometry, only: film_geometry_type, film_shapes, film_shape, biquadratic_shape, &
                                film_nodes, biquadratic_nodes, most_film_nodes
-  use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_state, gas_state_type, &
-                         viscosity_sutherland, viscosity_power, sutherland_temperature
+  use gfb_feed_law, only: porous_wall_type, wall_source
+  use gfb_gas_law, only: gas_law_type, gas_factors_type, gas_state, gas_state_type
+  use gfb_heated_gas, only: heated_gas_type, relative_viscosity, mean_over_gap
   implicit none (type, external)
   private
   public :: heated_residual, heated_jacobian, heated_shear, heated_shear_rates, gas_factors
-  public :: relative_viscosity, mean_over_gap
+  public :: heated_gas_type, relative_viscosity, mean_over_gap
 
   !> Variables of a point of a film, see `values_at`.
   integer, parameter :: variables = 14
-  !> What flows there, see `point_numbers`: fluxes along x and z, into the gas, foil and shaft.
+  !> What flows there, see `point_numbers`: fluxes along x and z, into the gas, foil and shaft; what
+  !> is fed in; what leans the weights of the energy.
   integer, parameter :: flux_along = 1, flux_across = 2, into_gas = 3, into_foil = 4, &
-                        into_shaft = 5, flows = 5
+                        into_shaft = 5, fed_in = 6, lean_along = 7, lean_across = 8, flows = 8
 
   !> A number and its derivatives by the variables.
   type :: dual_type
@@ -55,21 +61,17 @@ module gfb_heated_film
     module procedure square_root
   end interface
 
-
-  !> What the energy equation wants of the gas, beside its law at the reference temperature.
-  type, public :: heated_gas_type
-    type(gas_law_type) :: law            !! at the reference temperature
-    real(wp) :: reference = 0.0_wp       !! T_r, where the law holds [K]
-    real(wp) :: density = 0.0_wp         !! of mass over r, 1/(R_g T_r) [kg/(Pa m3)]
-    real(wp) :: specific_heat = 0.0_wp   !! c_p [J/(kg K)]
-    real(wp) :: prandtl = 0.0_wp         !! Pr [1]
-    integer :: viscosity = viscosity_sutherland !! how it follows the temperature
-    real(wp) :: exponent = 0.0_wp        !! n of the power law [1]
-  end type heated_gas_type
-
   !> The gas at a point, of plain numbers or of numbers with derivatives.
   interface gas_here
     module procedure numbers_here, duals_here
+  end interface
+
+  !> What a wall feeds in, and what of it enters.
+  interface fed_by
+    module procedure fed_number, fed_dual
+  end interface
+  interface entering
+    module procedure entering_number, entering_dual
   end interface
 
   !> Weight of what the motion carries.
@@ -93,6 +95,8 @@ module gfb_heated_film
     real(wp) :: field(most_film_nodes, heated_fields) = 0.0_wp !! [Pa], [m], [K], [K], [K]
     real(wp) :: excess(most_film_nodes) = 0.0_wp !! of the gap at the points over the nodes' [m]
     real(wp) :: part = 1.0_wp !! of a difference of temperature that the gas feels [1]
+    type(porous_wall_type) :: wall !! that feeds the element
+    logical :: leans = .false. !! weights of the energy lean against the flow, see `point_numbers`
   end type heated_state_type
 
 contains
@@ -130,18 +134,26 @@ contains
     type(heated_gas_type), intent(in) :: gas
     type(heated_state_type), intent(in) :: state
     real(wp), intent(out) :: residual(nodes, heated_rows)
-    real(wp) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    real(wp) :: flux_x, flux_z, fed, source, to_shaft, to_foil, shear, lean_x, lean_z
     integer :: i
 
     residual = 0.0_wp
     do i = 1, nodes
-      call point_numbers(gas, flow_here(flow, stretch(i)), stream_length(i), &
-                         values_at(nodes, shapes(:, i), gradients(:, :, i), state, i), state%part, &
-                         flux_x, flux_z, source, to_shaft, to_foil, shear)
+      call point_numbers(gas, flow_here(flow, stretch(i)), &
+                         sizes_at(nodes, stream_length(i), gradients(:, :, i)), &
+                         values_at(nodes, shapes(:, i), gradients(:, :, i), state, i), state, &
+                         flux_x, flux_z, fed, source, to_shaft, to_foil, shear, lean_x, lean_z)
       associate (area => areas(i), shape => shapes(:, i), gradient => gradients(:, :, i))
         residual(:, row_mass) = residual(:, row_mass) &
           + area*(flux_x*gradient(1, :) + flux_z*gradient(2, :))
+        if (state%wall%present) then
+          residual(:, row_mass) = residual(:, row_mass) - area*fed*shape
+        end if
         residual(:, row_energy) = residual(:, row_energy) + area*source*shape
+        if (state%leans) then
+          residual(:, row_energy) = residual(:, row_energy) &
+            + area*(lean_x*gradient(1, :) + lean_z*gradient(2, :))
+        end if
         residual(:, row_foil) = residual(:, row_foil) + area*to_foil*shape
         residual(:, row_shaft) = residual(:, row_shaft) + area*to_shaft*shape
       end associate
@@ -187,9 +199,9 @@ contains
 
     by_field = 0.0_wp
     do i = 1, nodes
-      call point_rates(gas, flow_here(flow, stretch(i)), stream_length(i), &
-                       values_at(nodes, shapes(:, i), gradients(:, :, i), state, i), state%part, &
-                       rate)
+      call point_rates(gas, flow_here(flow, stretch(i)), &
+                       sizes_at(nodes, stream_length(i), gradients(:, :, i)), &
+                       values_at(nodes, shapes(:, i), gradients(:, :, i), state, i), state, rate)
       associate (area => areas(i), shape => shapes(:, i), gradient => gradients(:, :, i))
         by_excess(:, :, i) = 0.0_wp
         call add_rates(nodes, area*rate(4, :), shape, gradient, by_excess(:, :, i))
@@ -213,8 +225,9 @@ contains
     real(wp), intent(inout) :: rows(nodes, heated_rows)
 
     rows(:, row_mass) = rows(:, row_mass) &
-      + (flow(flux_along)*gradient(1, :) + flow(flux_across)*gradient(2, :))
-    rows(:, row_energy) = rows(:, row_energy) + flow(into_gas)*shape
+      + (flow(flux_along)*gradient(1, :) + flow(flux_across)*gradient(2, :)) - flow(fed_in)*shape
+    rows(:, row_energy) = rows(:, row_energy) + flow(into_gas)*shape &
+      + (flow(lean_along)*gradient(1, :) + flow(lean_across)*gradient(2, :))
     rows(:, row_foil) = rows(:, row_foil) + flow(into_foil)*shape
     rows(:, row_shaft) = rows(:, row_shaft) + flow(into_shaft)*shape
   end subroutine add_rates
@@ -226,15 +239,18 @@ contains
     type(heated_gas_type), intent(in) :: gas !! that carries the heat
     type(heated_state_type), intent(in) :: state !! at the nodes
     integer, intent(in) :: nodes !! of the element
-    real(wp) :: shapes(nodes, nodes), flux_x, flux_z, source, to_shaft, to_foil, shear
+    real(wp) :: shapes(nodes, nodes)
+    real(wp) :: flux_x, flux_z, fed, source, to_shaft, to_foil, shear, lean_x, lean_z
     integer :: i
 
     shapes = film_shapes(nodes)
     power = 0.0_wp
     do i = 1, nodes
-      call point_numbers(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
+      call point_numbers(gas, flow_here(flow, geometry%stretch(i)), &
+                         sizes_at(nodes, geometry%stream_length(i), geometry%gradient(:, :, i)), &
                          values_at(nodes, shapes(:, i), geometry%gradient(:, :, i), state, i), &
-                         state%part, flux_x, flux_z, source, to_shaft, to_foil, shear)
+                         state, flux_x, flux_z, fed, source, to_shaft, to_foil, shear, lean_x, &
+                         lean_z)
       power = power + geometry%area(i)*shear
     end do
   end function heated_shear
@@ -248,7 +264,7 @@ contains
     real(wp), intent(out) :: by_field(:, :) !! (nodes, fields) [W/Pa], [W/m], [W/K]
     real(wp), intent(out) :: by_excess(:)   !! (points) [W/m]
     real(wp) :: shapes(size(by_excess), size(by_excess)), at(variables)
-    type(dual_type) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    type(dual_type) :: flux_x, flux_z, fed, source, to_shaft, to_foil, shear, lean_x, lean_z
     integer :: i, k
 
     shapes = film_shapes(size(by_excess))
@@ -256,9 +272,10 @@ contains
     do i = 1, size(by_excess)
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i))
         at = values_at(size(shape), shape, gradient, state, i)
-        call point_duals(gas, flow_here(flow, geometry%stretch(i)), geometry%stream_length(i), &
-                         variable(at, [(k, k=1, variables)]), state%part, flux_x, flux_z, source, &
-                         to_shaft, to_foil, shear)
+        call point_duals(gas, flow_here(flow, geometry%stretch(i)), &
+                         sizes_at(size(shape), geometry%stream_length(i), gradient), &
+                         variable(at, [(k, k=1, variables)]), state, flux_x, flux_z, fed, source, &
+                         to_shaft, to_foil, shear, lean_x, lean_z)
         associate (rate => geometry%area(i)*shear%d)
           by_excess(i) = rate(4)
           do k = 1, heated_fields - 1
@@ -271,6 +288,16 @@ contains
       end associate
     end do
   end subroutine heated_shear_rates
+
+  !> Sizes of an element at a point: its length along x [m], and how steep its shape functions are
+  !> together, \( g_x = \sum_a |\partial N_a/\partial x| \), \( g_z \) [1/m].
+  pure function sizes_at(nodes, stream_length, gradient) result(sizes)
+    integer, value :: nodes
+    real(wp), intent(in) :: stream_length
+    real(wp), intent(in) :: gradient(2, nodes)
+    real(wp) :: sizes(3)
+    sizes = [stream_length, sum(abs(gradient(1, :))), sum(abs(gradient(2, :)))]
+  end function sizes_at
 
   !> The variables at a point: p, h, T, T_f with their slopes along x and z, T_s with that along z.
   pure function values_at(nodes, shape, gradient, state, point) result(at)
@@ -301,27 +328,49 @@ contains
   !>
   !> Without the upwind term few variables matter, and few of these together: by hand that takes
   !> half of the time of numbers with derivatives.
-  pure subroutine point_rates(gas, flow, length, at, part, rate)
+  pure subroutine point_rates(gas, flow, sizes, at, state, rate)
     type(heated_gas_type), intent(in) :: gas
     type(film_flow_type), intent(in) :: flow
-    real(wp), intent(in) :: length !! of the element along x [m]
-    real(wp), intent(in) :: at(variables), part
+    real(wp), intent(in) :: sizes(3) !! see `sizes_at`
+    real(wp), intent(in) :: at(variables)
+    type(heated_state_type), intent(in) :: state !! of the element
     real(wp), intent(out) :: rate(variables, flows)
-    type(dual_type) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    type(dual_type) :: flux_x, flux_z, fed, source, to_shaft, to_foil, shear, lean_x, lean_z
     integer :: k
 
-    if (.not. flow%upwind) then
-      call galerkin_rates(gas, flow%entraining_speed, at, part, rate)
+    if (.not. (flow%upwind .or. state%leans)) then
+      call galerkin_rates(gas, flow%entraining_speed, at, state%part, rate)
+      if (state%wall%present) call add_wall_rates(gas, state%wall, at, rate)
       return
     end if
-    call point_duals(gas, flow, length, variable(at, [(k, k=1, variables)]), part, flux_x, flux_z, &
-                     source, to_shaft, to_foil, shear)
+    call point_duals(gas, flow, sizes, variable(at, [(k, k=1, variables)]), state, flux_x, &
+                     flux_z, fed, source, to_shaft, to_foil, shear, lean_x, lean_z)
     rate(:, flux_along) = flux_x%d
     rate(:, flux_across) = flux_z%d
     rate(:, into_gas) = source%d
     rate(:, into_foil) = to_foil%d
     rate(:, into_shaft) = to_shaft%d
+    rate(:, fed_in) = fed%d
+    rate(:, lean_along) = lean_x%d
+    rate(:, lean_across) = lean_z%d
   end subroutine point_rates
+
+  !> Adds those of a wall.
+  pure subroutine add_wall_rates(gas, wall, at, rate)
+    type(heated_gas_type), intent(in) :: gas
+    type(porous_wall_type), intent(in) :: wall
+    real(wp), intent(in) :: at(variables)
+    real(wp), intent(inout) :: rate(variables, flows)
+    real(wp) :: fed, by_pressure
+
+    call wall_source(wall, gas%law, at(1), fed, by_pressure)
+    rate(1, fed_in) = by_pressure
+    if (.not. fed > 0.0_wp) return
+    associate (capacity => gas%density*gas%specific_heat)
+      rate(1, into_gas) = rate(1, into_gas) - capacity*by_pressure*(wall%temperature - at(7))
+      rate(7, into_gas) = rate(7, into_gas) + capacity*fed
+    end associate
+  end subroutine add_wall_rates
 
   !> These without the upwind term. `of_` stands before derivatives by p, h, T and \( T_m \).
   pure subroutine galerkin_rates(gas, speed, at, part, rate)
@@ -408,37 +457,79 @@ contains
     rate(13) = -by(4)/6.0_wp
   end subroutine put_rates
 
-  !> Fluxes of mass along x and z as the residual has them [Pa m2/s], heat that the gas takes less
-  !> what it gets, heat into the walls, power of the drag [W/m2].
-  pure subroutine point_numbers(gas, flow, length, at, part, flux_x, flux_z, source, to_shaft, &
-                                to_foil, shear)
+  !> Fluxes of mass along x and z as the residual has them [Pa m2/s], what is fed in [Pa m/s], heat
+  !> that the gas takes less what it gets, heat into the walls, power of the drag [W/m2].
+  !>
+  !> Around orifices transport is more than what conducts to the walls, and a film that is weighted
+  !> by its shape functions alone has temperatures that swing from node to node. There the energy,
+  !> whose strong residual is the heat that the gas takes, is weighted (SUPG) by
+  !> \( N_a + \tau c_p \mathbf{m} \cdot \nabla N_a \), with
+  !> \( \tau^{-2} = c_p^2 (m_x^2 g_x^2 + m_z^2 g_z^2) + (12 k/h)^2 \) and g of `sizes_at`: the
+  !> leaning parts of all nodes add up to nothing, and energy closes.
+  pure subroutine point_numbers(gas, flow, sizes, at, state, flux_x, flux_z, fed, source, &
+                                to_shaft, to_foil, shear, lean_x, lean_z)
     type(heated_gas_type), intent(in) :: gas
     type(film_flow_type), intent(in) :: flow
-    real(wp), intent(in) :: length !! of the element along x [m]
-    real(wp), intent(in) :: at(variables), part
-    real(wp), intent(out) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    real(wp), intent(in) :: sizes(3) !! see `sizes_at`
+    real(wp), intent(in) :: at(variables)
+    type(heated_state_type), intent(in) :: state !! of the element
+    real(wp), intent(out) :: flux_x, flux_z, fed, source, to_shaft, to_foil, shear, lean_x, lean_z
     real(wp) :: r, r_p, mu, mu_p, factor, factor_t, mean, mean_x, mean_z, free, open
     real(wp) :: felt, felt_x, felt_z
     real(wp) :: conductance, x_slope, z_slope, viscosity, strong, moment, exchange, entrained
+    real(wp) :: lag, along, across
 
+    fed = 0.0_wp
+    lean_x = 0.0_wp
+    lean_z = 0.0_wp
     include 'heated_point.inc'
   end subroutine point_numbers
 
   !> The same with derivatives by the variables.
-  pure subroutine point_duals(gas, flow, length, at, part, flux_x, flux_z, source, to_shaft, &
-                              to_foil, shear)
+  pure subroutine point_duals(gas, flow, sizes, at, state, flux_x, flux_z, fed, source, to_shaft, &
+                              to_foil, shear, lean_x, lean_z)
     type(heated_gas_type), intent(in) :: gas
     type(film_flow_type), intent(in) :: flow
-    real(wp), intent(in) :: length !! of the element along x [m]
+    real(wp), intent(in) :: sizes(3) !! see `sizes_at`
     type(dual_type), intent(in) :: at(variables)
-    real(wp), intent(in) :: part
-    type(dual_type), intent(out) :: flux_x, flux_z, source, to_shaft, to_foil, shear
+    type(heated_state_type), intent(in) :: state !! of the element
+    type(dual_type), intent(out) :: flux_x, flux_z, fed, source, to_shaft, to_foil, shear
+    type(dual_type), intent(out) :: lean_x, lean_z
     type(dual_type) :: r, r_p, mu, mu_p, factor, factor_t, mean, mean_x, mean_z, free, open
     type(dual_type) :: felt, felt_x, felt_z
     type(dual_type) :: conductance, x_slope, z_slope, viscosity, strong, moment, exchange, entrained
+    type(dual_type) :: lag, along, across
 
     include 'heated_point.inc'
   end subroutine point_duals
+
+  elemental real(wp) function fed_number(wall, law, pressure) result(fed)
+    type(porous_wall_type), intent(in) :: wall
+    type(gas_law_type), intent(in) :: law
+    real(wp), intent(in) :: pressure
+    real(wp) :: rate
+    call wall_source(wall, law, pressure, fed, rate)
+  end function fed_number
+
+  elemental type(dual_type) function fed_dual(wall, law, pressure) result(fed)
+    type(porous_wall_type), intent(in) :: wall
+    type(gas_law_type), intent(in) :: law
+    type(dual_type), intent(in) :: pressure
+    real(wp) :: value, rate
+
+    call wall_source(wall, law, pressure%v, value, rate)
+    fed = dual_of(value, rate, pressure)
+  end function fed_dual
+
+  elemental real(wp) function entering_number(fed) result(inward)
+    real(wp), intent(in) :: fed
+    inward = max(fed, 0.0_wp)
+  end function entering_number
+
+  elemental type(dual_type) function entering_dual(fed) result(inward)
+    type(dual_type), intent(in) :: fed
+    if (fed%v > 0.0_wp) inward = fed
+  end function entering_dual
 
   elemental real(wp) function weight_of_number(peclet) result(weight)
     real(wp), intent(in) :: peclet
@@ -449,39 +540,6 @@ contains
     type(dual_type), intent(in) :: peclet
     weight = dual_of(upwind_weight(peclet%v), upwind_weight_derivative(peclet%v), peclet)
   end function weight_of_dual
-  !> Viscosity over that at the reference temperature, \( \nu(T) \), with two derivatives by it.
-  pure function relative_viscosity(gas, temperature) result(ratio)
-    type(heated_gas_type), intent(in) :: gas !! its law and reference
-    real(wp), intent(in) :: temperature !! T [K]
-    real(wp) :: ratio(3)                !! [1], [1/K], [1/K2]
-    real(wp) :: rate, bend
-
-    ratio = [1.0_wp, 0.0_wp, 0.0_wp]
-    associate (t => temperature, r => gas%reference, s => sutherland_temperature)
-      select case (gas%viscosity)
-      case (viscosity_sutherland)
-        ratio(1) = (t/r)*sqrt(t/r)*(r + s)/(t + s)
-        rate = 1.5_wp/t - 1.0_wp/(t + s)
-        bend = -1.5_wp/t**2 + 1.0_wp/(t + s)**2
-      case (viscosity_power)
-        ratio(1) = (t/r)**gas%exponent
-        rate = gas%exponent/t
-        bend = -gas%exponent/t**2
-      case default
-        return
-      end select
-      ratio(2) = ratio(1)*rate
-      ratio(3) = ratio(1)*(rate**2 + bend)
-    end associate
-  end function relative_viscosity
-
-  !> Mean temperature over the gap, \( T - (T_s - T_f)/6 \) [K].
-  elemental real(wp) function mean_over_gap(gas, foil, shaft) result(mean)
-    real(wp), intent(in) :: gas         !! T, at which the gas carries its heat [K]
-    real(wp), intent(in) :: foil, shaft !! T_f, T_s [K]
-    mean = gas + (foil - shaft)/6.0_wp
-  end function mean_over_gap
-
   !> What temperatures make of the gas at points of an element, beside its law at the reference
   !> temperature: where heat stands still the film needs no more of it.
   pure function gas_factors(gas, state, nodes) result(factors)

@@ -340,6 +340,7 @@ contains
       heat%cooling_temperature = given%cooling_temperature
       heat%arc = bearing%radius*pad_angle(bearing)*real(bearing%pads, wp)
       heat%modulus = given%modulus
+      heat%has_orifices = scene%feed%has_orifices()
     end associate
   end function heat_of
 

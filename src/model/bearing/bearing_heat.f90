@@ -49,6 +49,7 @@ module gfb_bearing_heat
     real(wp) :: cooling_temperature = 0.0_wp !! where it enters [K]
     real(wp) :: arc = 0.0_wp         !! of all pads together, of sectors outside [m]
     type(modulus_law_type) :: modulus !! of the foils over their temperature
+    logical :: has_orifices = .false. !! that feed the films
     integer, allocatable :: first(:) !! local unknowns of the bearing before those of each pad
     integer :: first_wall = 0        !! the same of the walls
     integer :: walls = 0             !! unknowns

@@ -100,7 +100,7 @@ contains
   end subroutine set_up_equations
 
   !> The blocks of equations that a bearing has beside those of its pads, in the order in which they are added: forces on foils
-  !> before heat, the shaft's last.
+  !> before heat, whose walls stand behind its fields so; then what feeds the films, the shaft's last.
   !>
   !> Contacts, the free edge and asperities are no blocks: contacts are a foil's own, edge and asperities act within a pad, on its
   !> film and foil and through its pressures on the shaft. They are terms of `pad_terms`.
@@ -116,14 +116,14 @@ contains
     call losses_block(bearing%block(3))
     call dampers_block(bearing%block(4))
     k = 4
-    if (allocated(bearing%feed)) then
-      k = k + 1
-      call feed_block(bearing, one)
-      bearing%block(k) = one
-    end if
     if (bearing%heat%present) then
       k = k + 1
       call heat_block(bearing, one)
+      bearing%block(k) = one
+    end if
+    if (allocated(bearing%feed)) then
+      k = k + 1
+      call feed_block(bearing, one)
       bearing%block(k) = one
     end if
     if (bearing%floats) call shaft_block(bearing%block(k + 1))
@@ -150,13 +150,14 @@ contains
     type(bearing_system_type), intent(in) :: bearing
     type(bearing_block_type), intent(in) :: block !! of its list
     PetscInt, allocatable, intent(inout) :: entries(:)
-    integer :: i, around
+    integer :: i, around, other
 
+    other = sum(bearing%block%scalars) - block%scalars
     around = block%fields*(2*bearing%mesh%order + 1)**2 + block%scalars
     entries = entries + int(around, pint)
     do i = 1, size(bearing%pad)
       associate (pad => bearing%pad(i))
-        entries = [entries, spread(int(2*around + pad%foil%couplings, pint), 1, block%fields*pad%mesh%owned_unknowns)]
+        entries = [entries, spread(int(2*around + pad%foil%couplings + other, pint), 1, block%fields*pad%mesh%owned_unknowns)]
       end associate
     end do
     if (bearing%last_rank) entries = [entries, spread(int(bearing%unknowns, pint), 1, block%scalars)]

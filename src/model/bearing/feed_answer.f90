@@ -3,7 +3,7 @@ module gfb_feed_answer
   use gfb_kinds, only: wp
   use gfb_bearing, only: bearing_type
   use gfb_feed_law, only: critical_ratio, orifice_flow, supply_at
-  use gfb_film_feed, only: mouth_state_type, mouth_state
+  use gfb_film_feed, only: film_feed_type, mouth_state_type, mouth_state
   use gfb_operating_point, only: operating_point_type
   use gfb_petsc_session, only: sum_over_ranks
   use gfb_wall_film, only: wall_shares
@@ -42,7 +42,7 @@ contains
           if (.not. film%wall%present) cycle
           do element = 1, size(film%element_nodes, 2)
             associate (nodes => film%element_nodes(:, element))
-              total = total + film%copies*sum(wall_shares(film%geometry(element), &
+              total = total + film%copies*sum(wall_shares(film%geometry(element), film%law, &
                                                           film%wall_at(point), &
                                                           unknown(pad%first + nodes)))
             end associate
@@ -56,9 +56,19 @@ contains
       total = sum_over_ranks(total)
       if (size(feed%mouth) > 0) call read_mouths(bearing, point%supply, unknown, total(1), answer)
       answer%flow = total(1)/feed%energy
-      answer%power = total(1)*log(supply_at(feed%supply, feed%ambient, point%supply)/feed%ambient)
+      answer%power = total(1)*feed%work*part_of_work(feed, point%supply)
     end associate
   end function feed_answer
+
+  !> Work to compress the gas to a part of the supply's pressure over ambient, over that to all of it: of an ideal gas [1].
+  pure real(wp) function part_of_work(feed, part) result(work)
+    type(film_feed_type), intent(in) :: feed
+    real(wp), intent(in) :: part !! of what the supply has above ambient pressure [1]
+
+    work = 1.0_wp
+    if (.not. (feed%supply > feed%ambient .and. abs(part - 1.0_wp) > 0.0_wp)) return
+    work = log(supply_at(feed%supply, feed%ambient, part)/feed%ambient)/log(feed%supply/feed%ambient)
+  end function part_of_work
 
   !> What a piece of a line feeds [Pa m3/s].
   pure real(wp) function line_flow(bearing, j, point, unknown, gap) result(total)

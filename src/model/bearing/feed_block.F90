@@ -8,8 +8,9 @@ module gfb_feed_block
   use petscmat
   use gfb_kinds, only: wp
   use gfb_petsc_kinds, only: pint
-  use gfb_feed_law, only: orifice_flow
-  use gfb_film_feed, only: film_feed_type, mouth_state_type, mouth_state, mouth_unknowns, mouth_pressure, mouth_mean, mouth_gap
+  use gfb_film_feed, only: mouth_state_type, mouth_unknowns, mouth_pressure, mouth_mean, mouth_gap
+  use gfb_fed_state, only: line_point_type, line_point, state_of_mouth, is_warm, numbers_of, number
+  use gfb_feed_heat, only: add_supply_heat, add_supply_heat_rates
   use gfb_film_rates, only: squeeze, flow_by_gap
   use gfb_pad, only: pad_type
   use gfb_pad_terms, only: add_block
@@ -18,11 +19,6 @@ module gfb_feed_block
   implicit none (type)
   private
   public :: feed_block, begin_feed
-
-  !> A line's point: pressure, gap, what it feeds and derivatives.
-  type :: line_point_type
-    real(wp) :: pressure, gap, flow, by_pressure, by_gap
-  end type line_point_type
 
 contains
 
@@ -84,13 +80,14 @@ contains
             - dot_product(mouth%centre_weight, state%gap(pad%first_node + mouth%centre_node))/feed%size(mouth_gap)
           call add_push(pad, mouth%centre_node, mouth%part*state%point%supply*feed%push*mouth%centre_weight, residual)
         end associate
+        if (bearing%last_rank .or. is_warm(bearing)) residual(pressure) = residual(pressure) + here%balance/feed%size(mouth_pressure)**2
         if (.not. bearing%last_rank) cycle
         residual(mean) = residual(mean) + state%unknown(mean)
         residual(gap) = residual(gap) + state%unknown(gap)
-        residual(pressure) = residual(pressure) + here%balance/feed%size(mouth_pressure)**2
       end do
     end associate
     call line_residual(bearing, state, residual)
+    if (bearing%heat%present) call add_supply_heat(bearing, state, residual)
   end subroutine feed_residual
 
   !> Their derivatives.
@@ -115,22 +112,17 @@ contains
           call add_block(matrix, own(mouth_mean:mouth_mean), number(pad%first + mouth%node), -there*mouth%weight/feed%size(mouth_mean))
         end associate
         call add_gap_row(bearing, j, there, matrix)
+        if (bearing%last_rank .or. is_warm(bearing)) then
+          call add_block(matrix, own(mouth_pressure:mouth_pressure), own, here%by*feed%size/feed%size(mouth_pressure)**2)
+        end if
         if (.not. bearing%last_rank) cycle
         call add_block(matrix, own(mouth_mean:mouth_mean), own(mouth_mean:mouth_mean), [there])
         call add_block(matrix, own(mouth_gap:mouth_gap), own(mouth_gap:mouth_gap), [there])
-        call add_block(matrix, own(mouth_pressure:mouth_pressure), own, here%by*feed%size/feed%size(mouth_pressure)**2)
       end do
     end associate
     call line_jacobian(bearing, state, room, matrix)
+    if (bearing%heat%present) call add_supply_heat_rates(bearing, state, room, matrix)
   end subroutine feed_jacobian
-
-  !> A mouth at a state of the bearing.
-  pure type(mouth_state_type) function state_of_mouth(bearing, j, state) result(here)
-    class(bearing_type), intent(in) :: bearing
-    integer, intent(in) :: j !! of the mouth
-    type(bearing_state_type), intent(in) :: state
-    here = mouth_state(bearing%feed, j, state%unknown, state%point%supply, bearing%pad(1)%film%flow%viscosity)
-  end function state_of_mouth
 
   !> Film rows by the pressure in a mouth and the gap at it.
   subroutine add_flow_columns(bearing, j, by_pressure, by_gap, matrix)
@@ -247,23 +239,6 @@ contains
     end do
   end subroutine add_push
 
-  !> What happens at a point of a line.
-  pure type(line_point_type) function line_point(bearing, j, i, state) result(here)
-    class(bearing_type), intent(in) :: bearing
-    integer, intent(in) :: j, i !! piece of a line, its point
-    type(bearing_state_type), intent(in) :: state
-
-    associate (feed => bearing%feed, line => bearing%feed%line(j), pad => bearing%pad(bearing%feed%line(j)%pad))
-      here%pressure = dot_product(line%shape(:, i), state%unknown(pad%first + line%node))
-      here%gap = dot_product(line%shape(:, i), state%gap(pad%first_node + line%node)) &
-        + dot_product(line%motion_excess(:, i), state%point%place)
-      call orifice_flow(feed%orifice_at(state%point%supply), here%pressure, here%gap, here%flow, here%by_pressure, here%by_gap)
-      if (.not. allocated(line%past)) return
-      here%flow = here%flow - feed%volume*feed%storage*here%pressure - line%past(i)
-      here%by_pressure = here%by_pressure - feed%volume*feed%storage
-    end associate
-  end function line_point
-
   !> What lines feed.
   subroutine line_residual(bearing, state, residual)
     class(bearing_type), intent(in) :: bearing
@@ -291,7 +266,7 @@ contains
     type(line_point_type) :: here
     integer :: j, i
 
-    here = line_point_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+    here = line_point_type()
     do j = 1, size(bearing%feed%line)
       do i = 1, size(bearing%feed%line(j)%orifices)
         if (.not. room) here = line_point(bearing, j, i, state)
@@ -343,7 +318,7 @@ contains
         if (kind == flow_by_gap) call add_foil_of_gap(bearing, j, 1.0_wp, matrix)
         if (kind /= squeeze) cycle
         call add_flow_columns(bearing, j, -feed%volume, 0.0_wp, matrix)
-        if (.not. bearing%last_rank) cycle
+        if (.not. (bearing%last_rank .or. is_warm(bearing))) cycle
         own = numbers_of(feed, j)
         of_mouth = state_of_mouth(bearing, j, state)
         call add_block(matrix, own(mouth_pressure:mouth_pressure), own(mouth_pressure:mouth_pressure), &
@@ -478,7 +453,7 @@ contains
             associate (place => pad%first + film%element_nodes(:, element))
               area(place) = area(place) + matmul(film%shape, film%geometry(element)%area)
               if (film%wall%present) then
-                flux(place) = flux(place) + wall_shares(film%geometry(element), film%wall_at(state%point), unknown(place))
+                flux(place) = flux(place) + wall_shares(film%geometry(element), film%law, film%wall_at(state%point), unknown(place))
               end if
             end associate
           end do
@@ -501,19 +476,4 @@ contains
       value = bearing%film_pressure(bearing%summed(flux))/bearing%film_pressure(bearing%summed(area))/feed%energy
     end associate
   end subroutine field_of_feed
-
-  !> Numbers of a mouth's unknowns.
-  pure function numbers_of(feed, j) result(own)
-    type(film_feed_type), intent(in) :: feed
-    integer, intent(in) :: j !! of the mouth
-    PetscInt :: own(mouth_unknowns)
-    own = number(feed%place(j, [mouth_pressure, mouth_mean, mouth_gap]))
-  end function numbers_of
-
-  !> Local numbers of PETSc, from 0.
-  elemental function number(place)
-    integer, intent(in) :: place !! from 1
-    integer(pint) :: number
-    number = int(place - 1, pint)
-  end function number
 end module gfb_feed_block

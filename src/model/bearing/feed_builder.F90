@@ -5,11 +5,14 @@ module gfb_feed_builder
   use gfb_units, only: turn, pi
   use gfb_bearing, only: bearing_type
   use gfb_bearing_case, only: bearing_case_type, pad_angle
-  use gfb_fed_mouth, only: mouth_type, find_mouth
+  use gfb_fed_mouth, only: mouth_type, find_mouth, find_rim
   use gfb_feed_case, only: feed_case_type, hole_type, find_holes, feed_porous, spread_line
   use gfb_feed_law, only: porous_wall_type, orifice_type
-  use gfb_film_feed, only: film_feed_type, fed_mouth_type, fed_line_type, mouth_pressure, mouth_mean, mouth_gap
+  use gfb_film_feed, only: film_feed_type, fed_mouth_type, fed_line_type, mixing_type, add_mixing, mouth_pressure, mouth_mean, mouth_gap
   use gfb_film_mesh, only: film_mesh_type
+  use gfb_gas_integrals, only: gas_integrals, of_volume, integrals
+  use gfb_gas_law, only: density_ideal
+  use gfb_heated_gas, only: heated_gas_type, relative_viscosity
   use gfb_pad, only: pad_type
   use gfb_scene, only: scene_type
   implicit none (type, external)
@@ -78,9 +81,40 @@ contains
     ! Motions against the mirror image leave the middle as it is.
     if (film%opposite .and. whole%part < 1.0_wp) whole%weight = 0.0_wp
     if (film%opposite .and. whole%part < 1.0_wp) whole%centre_weight = 0.0_wp
+    if (given%heated) call find_mixing(film, hole, 0.5_wp*given%mouth_diameter, pad, mouth%mixing)
     call own_nodes(pad, whole%node, whole%weight, mouth%node, mouth%weight)
     call own_nodes(pad, whole%centre_node, whole%centre_weight, mouth%centre_node, mouth%centre_weight)
   end function mouth_on_rank
+
+  !> The elements of this rank on a rim.
+  subroutine find_mixing(film, hole, radius, pad, mixing)
+    type(film_mesh_type), intent(in) :: film
+    type(hole_type), intent(in) :: hole
+    real(wp), intent(in) :: radius !! of the mouth [m]
+    type(pad_type), intent(in) :: pad
+    type(mixing_type), allocatable, intent(out) :: mixing(:)
+    integer, allocatable :: nodes(:, :), place(:)
+    real(wp), allocatable :: shapes(:, :)
+    type(mixing_type) :: one
+    integer :: i, element, k, a
+
+    call find_rim(film, hole%angle, hole%along, radius, nodes, shapes)
+    allocate (mixing(0))
+    do element = 1, size(pad%film%element_nodes, 2)
+      associate (local => pad%film%element_nodes(:, element))
+        one%node = local
+        one%share = spread(0.0_wp*shapes(:, 1), 2, size(local))
+        k = 0
+        do i = 1, size(nodes, 2)
+          if (nodes(1, i) /= pad%mesh%mesh_node(local(1))) cycle
+          k = k + 1
+          place = [(findloc(nodes(:, i), pad%mesh%mesh_node(local(a)), 1), a=1, size(local))]
+          call add_mixing(shapes(place, i), 1.0_wp/real(size(nodes, 2), wp), pad%film%fixed(local), one%share)
+        end do
+      end associate
+      if (k > 0) mixing = [mixing, one]
+    end do
+  end subroutine find_mixing
 
   !> Nodes of the whole mesh that this rank owns, by its own numbers.
   subroutine own_nodes(pad, whole, weight, node, own_weight)
@@ -187,7 +221,9 @@ contains
 
     if (.not. scene%feed%present) return
     associate (given => scene%feed, feed => bearing%feed)
-      feed%energy = given%energy
+      feed%energy = given%film_energy
+      feed%temperature = given%supply_temperature
+      feed%work = work_of(scene)
       feed%ambient = bearing%ambient_pressure
       feed%supply = given%supply_pressure
       if (given%kind == feed_porous) then
@@ -198,8 +234,9 @@ contains
         return
       end if
       feed%orifice = orifice_type(given%restriction, given%pressure_at_holes(), given%energy, given%specific_heat_ratio, &
-                                  given%discharge_coefficient, given%orifice_diameter, given%mouth_diameter, given%flows_back())
-      feed%volume = given%pocket_volume
+                                  given%discharge_coefficient, given%orifice_diameter, given%mouth_diameter, given%flows_back(), &
+                                  given%density_ratio())
+      feed%volume = given%pocket_volume*given%density_ratio()
       feed%push = (given%supply_pressure - feed%ambient)*given%tube_area()
       do i = 1, size(bearing%pad)
         bearing%pad(i)%pressure_below = merge(given%channel_pressure - feed%ambient, 0.0_wp, given%fills_channel())
@@ -231,15 +268,41 @@ contains
   !> The porous wall, as thick as its flow sees it: of a journal's, which widens outwards, \( R \ln(1 + H/R) \).
   pure type(porous_wall_type) function wall_of(scene) result(wall)
     type(scene_type), intent(in) :: scene
+    type(heated_gas_type) :: gas
+    real(wp) :: thicker(3)
 
     associate (given => scene%feed, bearing => scene%bearing)
       wall%present = .true.
       wall%supply_pressure = given%supply_pressure
       wall%thickness = given%wall_thickness
       if (.not. bearing%row%has_sectors) wall%thickness = bearing%radius*log(1.0_wp + given%wall_thickness/bearing%radius)
-      wall%resistance = scene%gas%viscosity/given%permeability
-      wall%inertia = given%inertia_coefficient/given%energy
+      gas%reference = given%film_temperature
+      gas%viscosity = scene%gas%viscosity_law
+      gas%exponent = scene%gas%viscosity_temperature_exponent
+      thicker = relative_viscosity(gas, given%supply_temperature)
+      wall%resistance = scene%gas%viscosity/given%permeability*thicker(1)
+      wall%inertia = given%inertia_coefficient/given%film_energy*given%density_ratio()
+      wall%density = given%density_ratio()
+      wall%temperature = given%supply_temperature
     end associate
   end function wall_of
+
+  !> Work to compress the gas that is fed in from ambient pressure, isothermal, over its flow in the film's unit: of an ideal gas
+  !> \( \ln(p_s/p_a) \, T_s/T_r \), of any \( \int dp/r \) [1].
+  pure real(wp) function work_of(scene) result(work)
+    type(scene_type), intent(in) :: scene
+    real(wp) :: integral(integrals)
+
+    associate (given => scene%feed, ambient => scene%gas%ambient_pressure)
+      if (scene%gas%law%density == density_ideal) then
+        associate (ratio => given%supply_pressure/ambient)
+          work = log(ratio)/given%density_ratio()
+        end associate
+      else
+        integral = gas_integrals(scene%gas%law, ambient, given%supply_pressure)
+        work = integral(of_volume)/given%density_ratio()
+      end if
+    end associate
+  end function work_of
 
 end module gfb_feed_builder

@@ -12,10 +12,18 @@ module gfb_film_feed
   use gfb_feed_law, only: porous_wall_type, orifice_type, orifice_flow, rim_balance, supply_at
   implicit none (type, external)
   private
-  public :: mouth_state
+  public :: mouth_state, add_mixing
 
   integer, parameter, public :: mouth_pressure = 1, mouth_mean = 2, mouth_gap = 3
   integer, parameter, public :: mouth_unknowns = 3
+
+  !> Nodes of an element of this rank that get gas, and how much of what each gets mixes with the
+  !> film at each: \( \sum_i N_a N_b/n \) over the points where gas enters. Of a node of given
+  !> pressure, which gets nothing, the others have that part at themselves.
+  type, public :: mixing_type
+    integer, allocatable :: node(:)      !! of the pad
+    real(wp), allocatable :: share(:, :) !! (nodes, nodes) symmetric [1]
+  end type mixing_type
 
   !> A mouth on this rank; places are those of a pad's local nodes that the rank owns.
   type, public :: fed_mouth_type
@@ -27,6 +35,7 @@ module gfb_film_feed
     real(wp), allocatable :: weight(:), centre_weight(:) !! [1]
     real(wp) :: lack = 0.0_wp !! beta, see `gfb_fed_mouth` [1]
     real(wp) :: part = 1.0_wp !! of its flow that enters the mesh [1]
+    type(mixing_type), allocatable :: mixing(:) !! where the film has heat
   end type fed_mouth_type
 
   !> A piece of a row of orifices that are spread evenly: the side of an element of this rank.
@@ -57,9 +66,11 @@ module gfb_film_feed
     type(orifice_type) :: orifice
     real(wp) :: supply = 0.0_wp       !! p_s, to which gas is compressed [Pa]
     real(wp) :: push = 0.0_wp         !! of each tube on the foil, with all of the supply [N]
-    real(wp) :: volume = 0.0_wp       !! of a pocket [m3]
+    real(wp) :: volume = 0.0_wp       !! of a pocket, of gas that counts as the film's [m3]
     real(wp) :: ambient = 0.0_wp      !! p_a [Pa]
-    real(wp) :: energy = 0.0_wp       !! Rg T_s, flow in the film's unit over mass [J/kg]
+    real(wp) :: energy = 0.0_wp       !! flow in the film's unit over mass [J/kg]
+    real(wp) :: work = 0.0_wp         !! to compress the gas, over its flow in that unit [1]
+    real(wp) :: temperature = 0.0_wp  !! T_s, with which gas enters a film with heat [K]
     real(wp) :: size(mouth_unknowns) = 1.0_wp !! of a mouth's unknowns [SI]
     type(fed_mouth_type), allocatable :: mouth(:)
     type(fed_line_type), allocatable :: line(:)
@@ -73,6 +84,21 @@ module gfb_film_feed
   end type film_feed_type
 
 contains
+
+  !> Adds a point where gas enters to the mixing of an element.
+  pure subroutine add_mixing(shape, part, fixed, share)
+    real(wp), intent(in) :: shape(:) !! functions there [1]
+    real(wp), intent(in) :: part     !! of the gas [1]
+    logical, intent(in) :: fixed(:)  !! nodes of given pressure
+    real(wp), intent(inout) :: share(:, :) !! see `mixing_type`
+    integer :: a
+
+    do a = 1, size(shape)
+      if (fixed(a)) cycle
+      share(:, a) = share(:, a) + part*merge(0.0_wp, shape, fixed)*shape(a)
+      share(a, a) = share(a, a) + part*shape(a)*sum(shape, fixed)
+    end do
+  end subroutine add_mixing
 
   !> Local unknown of a mouth.
   elemental integer function place(self, mouth, which)
@@ -96,14 +122,16 @@ contains
   !>
   !> $$ q = q_o(p_d, h) - V \frac{dp_d}{dt}, \quad p_d^2 - p_0^2 - \beta q/k = 0 $$
   !>
-  !> The gas in the pocket has the supply's temperature, as the film has.
-  pure type(mouth_state_type) function mouth_state(feed, mouth, unknown, part, viscosity) &
+  !> The gas in the pocket has the supply's temperature. Where each rank has a share of the
+  !> viscosity the one that owns the equation has the pressures.
+  pure type(mouth_state_type) function mouth_state(feed, mouth, unknown, part, viscosity, owns) &
     result(state)
     type(film_feed_type), intent(in) :: feed !! with its numbers
     integer, intent(in) :: mouth !! from 1
     real(wp), intent(in) :: unknown(:) !! of the bearing, local
     real(wp), intent(in) :: part       !! of the supply that counts [1]
-    real(wp), intent(in) :: viscosity  !! of the film [Pa s]
+    real(wp), intent(in) :: viscosity  !! of the film, or this rank's share of it [Pa s]
+    logical, intent(in), optional :: owns !! this rank owns the equation; default: as if it did
     real(wp) :: here(mouth_unknowns)
     integer :: first
 
@@ -119,6 +147,12 @@ contains
     call rim_balance(feed%mouth(mouth)%lack, viscosity, state%pressure, here(mouth_mean), &
                      here(mouth_gap), state%flow, state%balance, state%by(mouth_pressure), &
                      state%by(mouth_mean), state%by(mouth_gap), state%by_flow)
+    if (present(owns)) then
+      if (.not. owns) then
+        state%balance = state%by_flow*state%flow
+        state%by([mouth_pressure, mouth_mean]) = 0.0_wp
+      end if
+    end if
     state%by(mouth_pressure) = state%by(mouth_pressure) + state%by_flow*state%flow_by_pressure
     state%by(mouth_gap) = state%by(mouth_gap) + state%by_flow*state%flow_by_gap
   end function mouth_state

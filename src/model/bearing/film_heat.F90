@@ -65,6 +65,8 @@ contains
     end associate
     state%excess = pad%film%excess(element, point)
     state%part = point%growth
+    if (pad%film%wall%present) state%wall = pad%film%wall_at(point)
+    state%leans = heat%has_orifices
   end function state_of
 
   !> Local unknowns of the bearing: the shaft's temperature as nodes see it.

@@ -15,7 +15,7 @@ module gfb_film_heat_rates
                            is_trailing
   implicit none (type)
   private
-  public :: add_heat_jacobian
+  public :: add_heat_jacobian, sinking_of, mean_of
 
   !> Positions of an element's equations among those that it adds to: first those of its nodes, behind them those of walls.
   type :: equations_type

@@ -10,13 +10,16 @@ module gfb_heat_answer
   use gfb_gap_part, only: shift_of
   use gfb_film_flow, only: film_flow_type
   use gfb_film_heat, only: state_of, channel_places, feed, is_leading, is_trailing
+  use gfb_heated_supply, only: wall_heat
   use gfb_operating_point, only: operating_point_type
   use gfb_pad, only: pad_type
   implicit none (type)
   private
   public :: heat_answer
 
-  integer, parameter :: sums = 15 !! over elements and nodes of a pad
+  integer, parameter :: sums = 16 !! over elements and nodes of a pad
+  !> of the gas that is fed, by which an imbalance is measured at least: at rest nothing else may be there [K]
+  real(wp), parameter :: least_rise = 1.0_wp
 
   !> What one pad, or all together, say of heat.
   type, public :: heat_share_type
@@ -28,7 +31,8 @@ module gfb_heat_answer
     real(wp) :: power = 0.0_wp                    !! of the film's drag [W]
     real(wp) :: to_shaft = 0.0_wp, to_top_foil = 0.0_wp !! out of the film [W]
     real(wp) :: through_bumps = 0.0_wp, to_channel = 0.0_wp !! out of the top foil [W]
-    real(wp) :: by_gas = 0.0_wp                   !! carried out less carried in [W]
+    real(wp) :: by_gas = 0.0_wp                   !! carried out over edges less carried in [W]
+    real(wp) :: by_supply = 0.0_wp                !! that gas which is fed in brings, over gas that is drawn in [W]
     real(wp) :: leading = 0.0_wp, trailing = 0.0_wp, sides = 0.0_wp !! flow in, out, out [kg/s]
     real(wp) :: area = 0.0_wp, mean_gap = 0.0_wp !! of the film [m2], [m]
     real(wp) :: modulus(2) = 1.0_wp !! of top foil and bumps over the typed ones; of all pads the mean [1]
@@ -40,11 +44,12 @@ module gfb_heat_answer
     type(heat_share_type) :: whole
     type(heat_share_type), allocatable :: pad(:)
     real(wp) :: shaft_temperature = 0.0_wp, sleeve_temperature = 0.0_wp !! mean [K]
+    logical :: is_fed = .false.
     logical :: has_cooling = .false.
     real(wp) :: cooling_outlet_temperature = 0.0_wp !! [K]
     real(wp) :: running_clearance = 0.0_wp          !! C less all growth, mean [m]
     real(wp) :: preload = 0.0_wp                    !! m C of the pads, and interference of assembly [m]
-    real(wp) :: imbalance = 0.0_wp                  !! power less all heat, over the power [1]
+    real(wp) :: imbalance = 0.0_wp                  !! power and heat of the supply less all heat, over the larger [1]
     logical :: softens = .false.                    !! the modulus of foils follows their temperature
     logical :: top_foil_bends = .false.             !! then: that of the top foil counts, too
     logical :: off_table = .false.                  !! some foil is hotter or colder than its table
@@ -53,25 +58,28 @@ module gfb_heat_answer
 contains
 
   !> Reads the heat off a state.
-  function heat_answer(heat, pads, point, unknown, gap, flow) result(answer)
+  function heat_answer(heat, pads, point, unknown, gap, flow, fed) result(answer)
     type(film_heat_type), intent(in) :: heat !! of the bearing
     type(pad_type), intent(in) :: pads(:)    !! of it
     type(operating_point_type), intent(in) :: point !! with the shaft's position
     real(wp), intent(in) :: unknown(:) !! the bearing's local ones [SI]
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
     real(wp), intent(in) :: flow(:)    !! at each local unknown of a pressure, what all ranks' elements take there [Pa m3/s]
+    real(wp), intent(in), optional :: fed(:) !! where films are fed: heat by this rank's orifices of each pad [W]
     type(heat_answer_type) :: answer
     real(wp) :: sum_of(sums, size(pads)), most(2, size(pads))
     integer :: i
 
     do i = 1, size(pads)
       associate (h => gap(pads(i)%first_node + 1:pads(i)%last_node))
-        call read_pad(heat, pads(i), point, unknown, h, flow, sum_of(:, i), most(:, i))
+        call read_pad(heat, pads(i), point, unknown, h, flow, present(fed), sum_of(:, i), most(:, i))
       end associate
     end do
+    if (present(fed)) sum_of(16, :) = sum_of(16, :) + fed
     sum_of = reshape(sum_over_ranks(reshape(sum_of, [size(sum_of)])), shape(sum_of))
     most = reshape(largest_over_ranks(reshape(most, [size(most)])), shape(most))
     answer%present = .true.
+    answer%is_fed = present(fed)
     answer%pad = [(share_of(sum_of(:, i), most(:, i), unknown(heat%place_of_slit(i))), i=1, size(pads))]
     answer%whole = share_of(sum(sum_of, 2), maxval(most, 2), sum(answer%pad%inlet_temperature)/real(size(pads), wp))
     if (heat%softens()) call read_moduli(heat, point, unknown, answer)
@@ -86,6 +94,9 @@ contains
     if (answer%has_cooling) answer%cooling_outlet_temperature = unknown(heat%place_of_channel(heat%channels))
     associate (whole => answer%whole)
       answer%imbalance = (whole%power - whole%to_shaft - whole%to_top_foil - whole%by_gas)/max(whole%power, tiny(1.0_wp))
+      if (answer%is_fed) answer%imbalance = (whole%power + whole%by_supply - whole%to_shaft - whole%to_top_foil - whole%by_gas)/ &
+                                            max(whole%power, abs(whole%by_supply), abs(whole%by_gas), least_rise*heat%gas%specific_heat* &
+                                                abs(whole%trailing + whole%sides - whole%leading), tiny(1.0_wp))
     end associate
   end function heat_answer
 
@@ -112,22 +123,25 @@ contains
   end subroutine read_moduli
 
   !> This rank's sums and largest values of a pad.
-  subroutine read_pad(heat, pad, point, unknown, gap, flow, sum_of, most)
+  subroutine read_pad(heat, pad, point, unknown, gap, flow, fed, sum_of, most)
     type(film_heat_type), intent(in) :: heat
     type(pad_type), intent(in) :: pad
     type(operating_point_type), intent(in) :: point
     real(wp), intent(in) :: unknown(:), gap(:), flow(:)
+    logical, intent(in) :: fed !! then what flows over edges is no balance of its own: gas as it is drawn in carries no heat
     real(wp), intent(out) :: sum_of(sums) !! see `share_of`; mean of the shaft and of growth, times the area
     real(wp), intent(out) :: most(:)      !! temperatures of film and top foil [K]
     type(heated_state_type) :: state
     real(wp) :: share(size(pad%film%shape, 1), heated_rows), weight(size(pad%film%shape, 1)), growth(size(gap))
-    real(wp), dimension(size(share, 1)) :: mean, foil, channel
+    real(wp), dimension(size(share, 1)) :: mean, foil, channel, by_pressure, by_gas
+    real(wp) :: none, supplied
     type(film_flow_type) :: here
     integer :: element, node, n
 
     n = size(share, 1)
     sum_of = 0.0_wp
     most = 0.0_wp
+    none = merge(heat%ambient, 0.0_wp, fed)
     growth = growth_of(heat, pad%mesh%mesh_node, pad%whole%rows(), point, unknown)
     here = pad%film%flow_at(point)
     channel = heat%cooling_temperature
@@ -150,13 +164,16 @@ contains
           if (heat%channels > 0) sum_of(9) = sum_of(9) + heat%channel*dot_product(weight, foil - channel)
           sum_of(13:14) = sum_of(13:14) + [dot_product(weight, state%field(:n, field_shaft)), dot_product(weight, growth(nodes))]
           most = max(most, [maxval(mean), maxval(foil)])
+          if (.not. film%wall%present) cycle
+          call wall_heat(geometry, heat%gas, state, none, supplied, by_pressure, by_gas)
+          sum_of(16) = sum_of(16) + film%copies*supplied
         end associate
       end do
       do node = 1, size(film%fixed)
         if (.not. (film%fixed(node) .and. pad%mesh%owned(node))) cycle
         associate (inflow => film%copies*heat%gas%density*flow(pad%first + node))
           sum_of(10) = sum_of(10) - heat%gas%specific_heat*inflow* &
-                          merge(feed(heat, pad, node, unknown), unknown(heat%place_of_gas(pad%number, node)), inflow > 0.0_wp)
+                          (merge(feed(heat, pad, node, unknown), unknown(heat%place_of_gas(pad%number, node)), inflow > 0.0_wp) - none)
           if (is_leading(pad, node)) then
             sum_of(11) = sum_of(11) + inflow
           else if (is_trailing(pad, node)) then
@@ -177,7 +194,7 @@ contains
     share = heat_share_type(film_temperature=sum_of(1)/sum_of(2), maximum_film_temperature=most(1), &
                             top_foil_temperature=sum_of(4)/sum_of(3), maximum_top_foil_temperature=most(2), &
                             inlet_temperature=inlet, power=sum_of(5), to_shaft=sum_of(6), to_top_foil=sum_of(7), &
-                            through_bumps=sum_of(8), to_channel=sum_of(9), by_gas=sum_of(10), leading=sum_of(11), &
+                            through_bumps=sum_of(8), to_channel=sum_of(9), by_gas=sum_of(10), by_supply=sum_of(16), leading=sum_of(11), &
                             trailing=sum_of(12), sides=sum_of(15), area=sum_of(3), mean_gap=sum_of(2)/sum_of(3))
   end function share_of
 end module gfb_heat_answer

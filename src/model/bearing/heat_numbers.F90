@@ -9,6 +9,8 @@ module gfb_heat_numbers
   use gfb_heated_film, only: heated_state_type, heated_jacobian, heated_shear_rates, mean_over_gap, heated_rows, heated_fields, row_foil, &
                              row_shaft, field_pressure, field_gap, field_gas, field_foil, field_shaft
   use gfb_bearing_heat, only: temperatures_at, moduli_at
+  use gfb_orifice_heat, only: orifice_heat, add_orifice_heat_rates
+  use gfb_heated_supply, only: wall_heat
   use gfb_film_heat, only: heat_flows, state_of, shaft_places, channel_places
   use gfb_heat_answer, only: heat_answer_type, heat_answer
   use gfb_bearing, only: bearing_type, bearing_state_type
@@ -44,10 +46,15 @@ contains
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
     type(heat_answer_type) :: heat
     real(wp) :: value(size(unknown))
+    type(bearing_state_type) :: state
 
     value = 0.0_wp
-    heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, &
-                       heat_flows(bearing, bearing_state_type(here, bearing%point, unknown, gap), value))
+    state = bearing_state_type(here, bearing%point, unknown, gap)
+    if (allocated(bearing%feed)) then
+      heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, heat_flows(bearing, state, value), orifice_heat(bearing, state))
+    else
+      heat = heat_answer(bearing%heat, bearing%pad, here, unknown, gap, heat_flows(bearing, state, value))
+    end if
   end function read_heat
 
   !> Mean temperature over the gap at this rank's film nodes, pad by pad [K].
@@ -85,6 +92,7 @@ contains
                                     heat%cooling_outlet_temperature]
       number(to_shaft:to_channel) = [whole%to_shaft, whole%to_top_foil, whole%through_bumps, whole%to_channel]
       number(by_gas) = whole%power - whole%to_shaft - whole%to_top_foil
+      if (heat%is_fed) number(by_gas) = number(by_gas) + whole%by_supply
       number(left_clearance) = heat%running_clearance
     end associate
   end subroutine measure_heat
@@ -96,7 +104,7 @@ contains
     real(wp), intent(in) :: unknown(:) !! local, in SI
     real(wp), intent(in) :: gap(:)     !! at all film nodes [m]
     real(wp), intent(out) :: by_unknown(:, :), by_gap(:, :) !! (unknowns or nodes, numbers and torque) [SI]
-    real(wp) :: whole(2)
+    real(wp) :: whole(2), supplied(size(bearing%pad))
     integer :: i
 
     by_unknown = 0.0_wp
@@ -107,6 +115,10 @@ contains
         call add_pad_heat(bearing, i, unknown, gap(first:last), whole, by_unknown, by_gap(first:last, :))
       end associate
     end do
+    if (allocated(bearing%feed)) then
+      call add_orifice_heat_rates(bearing, bearing_state_type(bearing%position(unknown), bearing%point, unknown, gap), supplied, &
+                                  by_unknown(:, by_gas), by_gap(:, by_gas))
+    end if
     call finish_heat(bearing, node, by_unknown, by_gap)
   end subroutine add_heat_number_rates
 
@@ -123,6 +135,7 @@ contains
     real(wp) :: rate(size(bearing%pad(1)%film%shape, 1), heated_rows, size(bearing%pad(1)%film%shape, 1), heated_fields)
     real(wp) :: of_excess(size(rate, 1), heated_rows, size(rate, 1)), shear(size(rate, 1), heated_fields), of_shear(size(rate, 1))
     real(wp) :: by(size(rate, 1), heated_fields, columns), by_excess(size(rate, 1), columns), mean(size(rate, 1))
+    real(wp) :: supplied
     integer :: element, k, n
 
     n = size(rate, 1)
@@ -140,6 +153,8 @@ contains
         by_excess(:, to_top_foil) = sum(of_excess(:, row_foil, :), 1)
         by(:, :, of_torque) = shear
         by_excess(:, of_torque) = of_shear
+        if (film%wall%present) call wall_heat(film%geometry(element), heat%gas, state, heat%ambient, supplied, &
+                                              by(:, field_pressure, by_gas), by(:, field_gas, by_gas))
         mean = mean_over_gap(state%field(:n, field_gas), state%field(:n, field_foil), state%field(:n, field_shaft))
         associate (area => film%geometry(element)%area, shape => film%shape, &
                    h => matmul(state%field(:n, field_gap), film%shape) + state%excess(:n))
@@ -232,8 +247,9 @@ contains
       gradient(:, of_top_foil) = gradient(:, of_top_foil)/area(1)
       gradient(:, of_shaft) = gradient(:, of_shaft)/area(1)
       gradient(:, left_clearance) = -growth*heat%shaft%growth*gradient(:, of_shaft)
-      gradient(:, by_gas) = gradient(:, of_torque) - gradient(:, to_shaft) - gradient(:, to_top_foil)
-      by_gap(:, by_gas) = by_gap(:, of_torque) - by_gap(:, to_shaft) - by_gap(:, to_top_foil)
+      ! What a supply brings stands there.
+      gradient(:, by_gas) = gradient(:, by_gas) + gradient(:, of_torque) - gradient(:, to_shaft) - gradient(:, to_top_foil)
+      by_gap(:, by_gas) = by_gap(:, by_gas) + by_gap(:, of_torque) - by_gap(:, to_shaft) - by_gap(:, to_top_foil)
       if (abs(bearing%point%speed) > 0.0_wp) then
         gradient(:, of_torque) = gradient(:, of_torque)/bearing%point%speed
         by_gap(:, of_torque) = by_gap(:, of_torque)/bearing%point%speed

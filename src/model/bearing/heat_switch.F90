@@ -36,7 +36,7 @@ contains
     integer :: pads !! their unknowns
     logical :: iterates
 
-    pads = bearing%first_shaft
+    pads = bearing%first_scalar
     iterates = bearing%has_motions
     call bearing%get_unknowns(before)
     call free_equations(bearing)
@@ -45,7 +45,7 @@ contains
     if (iterates) call bearing%find_motions() ! temperatures are unknowns of their own
     allocate (unknown(bearing%local_size()), source=heat%ambient)
     unknown(:pads) = before(:pads)
-    unknown(bearing%first_shaft + 1:) = before(pads + 1:)
+    unknown(bearing%heat%last() + 1:) = before(pads + 1:)
     call bearing%set_unknowns(unknown)
   end subroutine add_heat
 
@@ -78,7 +78,7 @@ contains
     frozen%heat = film_heat_type()
     call set_up_equations(frozen)
     if (bearing%has_motions) call frozen%find_motions()
-    call frozen%set_unknowns([unknown(:bearing%heat%first(1)), unknown(bearing%first_shaft + 1:)])
+    call frozen%set_unknowns([unknown(:bearing%heat%first(1)), unknown(bearing%heat%last() + 1:)])
   end subroutine freeze_heat
 
   !> What a motion of the shaft meets: the bearing itself, or where heat is solved for one whose temperatures stay as they are.

@@ -20,7 +20,7 @@ module gfb_fed_mouth
   use gfb_linear_solve, only: solve_positive
   implicit none (type, external)
   private
-  public :: find_mouth
+  public :: find_mouth, find_rim
 
   integer, parameter :: rim_points = 64 !! of the circle
   integer, parameter :: reach = 6       !! elements of a patch on each side of the mouth, at least
@@ -54,8 +54,7 @@ contains
 
     allocate (mouth%node(0), mouth%weight(0))
     do i = 1, rim_points
-      place = on_rim(mesh%surface, angle, along, radius, &
-                     turn*(real(i, wp) - 0.5_wp)/real(rim_points, wp))
+      place = point_of_rim(mesh%surface, angle, along, radius, i)
       call find_shares(mesh, place(1), place(2), node, weight)
       call gather(node, weight/real(rim_points, wp), mouth%node, mouth%weight)
     end do
@@ -65,6 +64,39 @@ contains
     if (mesh%half .and. abs(along) < near*mesh%row_axial(2)) mouth%part = 0.5_wp
     call find_lack(mesh, angle, along, radius, mouth)
   end subroutine find_mouth
+
+  !> The points of a rim: nodes of the elements around them, their first corners first, and their
+  !> shape functions; all points count alike.
+  pure subroutine find_rim(mesh, angle, along, radius, nodes, shapes)
+    type(film_mesh_type), intent(in) :: mesh !! the film's mesh
+    real(wp), intent(in) :: angle  !! theta of the centre [rad]
+    real(wp), intent(in) :: along  !! s of the centre [m]
+    real(wp), intent(in) :: radius !! of the mouth [m]
+    integer, allocatable, intent(out) :: nodes(:, :)   !! (4 or 9, points) of the whole mesh
+    real(wp), allocatable, intent(out) :: shapes(:, :) !! (4 or 9, points) [1]
+    real(wp), allocatable :: weight(:)
+    integer, allocatable :: node(:)
+    real(wp) :: place(2)
+    integer :: i
+
+    allocate (nodes((mesh%order + 1)**2, rim_points), shapes((mesh%order + 1)**2, rim_points))
+    do i = 1, rim_points
+      place = point_of_rim(mesh%surface, angle, along, radius, i)
+      call find_shares(mesh, place(1), place(2), node, weight)
+      nodes(:, i) = node
+      shapes(:, i) = weight
+    end do
+  end subroutine find_rim
+
+  !> One of the points on a rim: theta, s.
+  pure function point_of_rim(surface, angle, along, radius, i) result(place)
+    type(film_surface_type), intent(in) :: surface
+    real(wp), intent(in) :: angle, along, radius
+    integer, intent(in) :: i !! from 1
+    real(wp) :: place(2)
+    place = on_rim(surface, angle, along, radius, &
+                   turn*(real(i, wp) - 0.5_wp)/real(rim_points, wp))
+  end function point_of_rim
 
   !> A point on the rim: theta, s. The surface is developed into a plane, where a circle is one.
   pure function on_rim(surface, angle, along, radius, turned) result(place)

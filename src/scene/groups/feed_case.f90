@@ -9,12 +9,12 @@ module gfb_feed_case
                            positive, unless
   use gfb_feed_law, only: restriction_series
   use gfb_gas_case, only: gas_case_type, usual_temperature
-  use gfb_gas_law, only: gas_constant
+  use gfb_gas_law, only: gas_constant, density_ideal
   use gfb_key_effect, only: acts_on_film, acts_on_all
   use gfb_text, only: text
   implicit none (type, external)
   private
-  public :: feed_case_type, read_feed_case, hole_type, find_holes
+  public :: feed_case_type, read_feed_case, follow_heat, hole_type, find_holes
 
   character(len=*), parameter, public :: feed_group = 'feed'
 
@@ -44,7 +44,12 @@ module gfb_feed_case
     integer :: kind = 0                      !! `feed_porous`, `feed_orifices`; 0: not known
     real(wp) :: supply_pressure = 0.0_wp     !! absolute [Pa]
     real(wp) :: supply_temperature = usual_temperature !! [K]
+    logical :: temperature_given = .false.   !! else it follows other groups
+    logical :: heated = .false.              !! the film has heat, be it held or not yet solved for
+    real(wp) :: film_temperature = usual_temperature !! T_r, at which the film's gas counts [K]
     real(wp) :: energy = 0.0_wp              !! Rg T_s of the gas [J/kg]
+    !> of mass in the film's unit, Rg T_r; of a real gas p_a/rho_a [J/kg]
+    real(wp) :: film_energy = 0.0_wp
     real(wp) :: permeability = 0.0_wp        !! [m2]
     real(wp) :: wall_thickness = 0.0_wp      !! [m]
     real(wp) :: inertia_coefficient = 0.0_wp !! Forchheimer's [1/m]
@@ -68,6 +73,7 @@ module gfb_feed_case
   contains
     procedure, non_overridable :: has_orifices, holes_of_row, flows_back, mirrors, gap_size
     procedure, non_overridable :: pressure_at_holes, fills_channel, tube_area
+    procedure, non_overridable :: density_ratio
   end type feed_case_type
 
   !> Where an orifice lies on a pad.
@@ -101,11 +107,11 @@ contains
                        'the supply', positive, .true.)
     if (gas%temperature > 0.0_wp) feed%supply_temperature = gas%temperature
     call keys%real_key('supply_temperature', feed%supply_temperature, 'K', 'temperature of the '// &
-                       'gas that is fed in', from_to(coldest, hottest), &
-                       default='`temperature` of `&gas`, else 293.15')
-    if (gas%molar_mass > 0.0_wp) then
-      feed%energy = gas_constant/gas%molar_mass*feed%supply_temperature
-    end if
+                       'gas that is fed in, and of a porous wall', from_to(coldest, hottest), &
+                       default='with `&thermal` its `ambient_temperature`, else `temperature` '// &
+                       'of `&gas`, else 293.15', given=feed%temperature_given)
+    feed%film_temperature = feed%supply_temperature
+    call find_energies(gas, feed)
     call keys%real_key('permeability', feed%permeability, 'm^2', 'of the porous wall, '// &
                        "Darcy's", from_to(least_permeability, most_permeability), &
                        feed%kind == feed_porous, "required with kind = 'porous'", useless=of_wall)
@@ -142,6 +148,40 @@ contains
     call read_foil_holes(keys, feed)
     call check_holes(keys, feed, bearing, given)
   end subroutine read_feed_case
+
+  !> With heat the film's gas counts at ambient temperature, which the supply has where nothing else
+  !> is said.
+  subroutine follow_heat(keys, feed, gas, ambient)
+    type(case_keys_type), intent(inout) :: keys !! the keys of the case file
+    type(feed_case_type), intent(inout) :: feed !! what `&feed` asks for
+    type(gas_case_type), intent(in) :: gas !! what `&gas` asks for
+    real(wp), intent(in) :: ambient !! temperature of `&thermal` [K]
+
+    feed%heated = .true.
+    feed%film_temperature = ambient
+    if (.not. feed%temperature_given) feed%supply_temperature = ambient
+    call keys%follow(feed_group, 'supply_temperature', feed%supply_temperature)
+    call find_energies(gas, feed)
+  end subroutine follow_heat
+
+  !> Energies that stand for mass in flows.
+  pure subroutine find_energies(gas, feed)
+    type(gas_case_type), intent(in) :: gas
+    type(feed_case_type), intent(inout) :: feed !! with its temperatures
+
+    if (gas%molar_mass > 0.0_wp) then
+      feed%energy = gas_constant/gas%molar_mass*feed%supply_temperature
+      feed%film_energy = gas_constant/gas%molar_mass*feed%film_temperature
+    end if
+    if (gas%law%density == density_ideal .or. .not. gas%law%ambient_density > 0.0_wp) return
+    feed%film_energy = gas%ambient_pressure/gas%law%ambient_density
+  end subroutine find_energies
+
+  !> Density of the supply's gas over that of the film's where it counts, \( T_r/T_s \) [1].
+  pure real(wp) function density_ratio(self) result(ratio)
+    class(feed_case_type), intent(in) :: self !! what `&feed` asks for
+    ratio = self%film_temperature/self%supply_temperature
+  end function density_ratio
 
   !> Where orifices are, and how large.
   subroutine read_holes(keys, feed, useless)

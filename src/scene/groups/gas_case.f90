@@ -167,10 +167,11 @@ contains
              real_gas .or. said%table .or. turbulent .or. even .or. said%heated .or. said%fed, &
              "viscosity_law = 'sutherland', equation_of_state = 'peng_robinson', a table, "// &
              'turbulence of an ideal gas, &thermal or &feed')
-    if (said%heated .or. said%fed) gas%molar_mass = air
+    if (said%heated .or. said%fed .and. .not. real_gas) gas%molar_mass = air
     call key('molar_mass', gas%molar_mass, 'kg/mol', "mass of a mole of the gas, air's "// &
-             '0.0289647 by default with `&thermal` or `&feed`', positive, turbulent .and. .not. &
-             (said%table .or. said%heated .or. said%fed), &
+             '0.0289647 by default with `&thermal` or, of an ideal gas or a table, `&feed`', &
+             positive, turbulent .and. .not. (said%table .or. said%heated .or. said%fed) .or. &
+             real_needed .and. said%fed, &
              real_gas .or. ideal_turbulence .or. said%heated .or. said%fed, &
              "equation_of_state = 'peng_robinson', turbulence of an ideal gas, &thermal or &feed")
     call key('viscosity_temperature_exponent', gas%viscosity_temperature_exponent, '1', &

@@ -25,7 +25,7 @@ module gfb_case_keys
   !> The keys of a case file, kind by kind.
   type, extends(case_reader_type) :: case_keys_type
   contains
-    procedure, non_overridable :: real_key, real_vector_key, real_list_key
+    procedure, non_overridable :: real_key, real_vector_key, real_list_key, follow
     procedure, non_overridable :: integer_key, logical_key, string_key
     procedure, non_overridable :: choice_key, choice_or_keys_key, words_key, word_list_key
     procedure, non_overridable :: names_key, strings_key
@@ -82,6 +82,19 @@ contains
     call self%take_numbers(single, values, rule, required, default, given)
     value = values(1)
   end subroutine real_key
+
+  !> A real key that has been read and is not given gets what another group says, read since.
+  subroutine follow(self, group, name, value)
+    class(case_keys_type), intent(inout) :: self !! the keys being read
+    character(len=*), intent(in) :: group, name !! of the key
+    real(wp), intent(in) :: value !! [its unit]
+
+    associate (key => self%book%keys(self%book%place_of(group, name)))
+      if (key%given) return
+      key%value = self%book%numbers_shown([value])
+      key%numbers = [value]
+    end associate
+  end subroutine follow
 
   !> A fixed number of real numbers; all of them must be given.
   subroutine real_vector_key(self, name, values, unit, meaning, rule, required, default, given, &

@@ -126,6 +126,7 @@ contains
 
     associate (heat => bearing%heat)
       if (heat%sleeve%growth > heat%shaft%growth) return ! a hot bearing may have more clearance
+      if (allocated(bearing%feed)) return ! a supply cools as much as it is cold
       answer = bearing_answer(bearing, brief=.true.)
       associate (whole => answer%heat%whole, surface => bearing%mesh%surface)
         film = film_work_type(drag=whole%power, flow=max(whole%leading, whole%trailing, whole%trailing + whole%sides), area=whole%area)

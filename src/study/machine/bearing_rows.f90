@@ -66,6 +66,7 @@ contains
       call add_result(summary, 'heat_to_shaft'//behind, whole%to_shaft)
       call add_result(summary, 'heat_to_top_foil'//behind, whole%to_top_foil)
       call add_result(summary, 'heat_by_gas'//behind, whole%by_gas)
+      if (heat%is_fed) call add_result(summary, 'heat_by_supply'//behind, whole%by_supply)
     end associate
     if (grows) call add_result(summary, 'running_clearance'//behind, heat%running_clearance)
     call add_result(summary, 'energy_imbalance'//behind, heat%imbalance)
@@ -98,6 +99,7 @@ contains
       associate (whole => bearing(i)%heat%whole)
         power = power + whole%power
         left = left + whole%power - whole%to_top_foil - whole%by_gas
+        if (bearing(i)%heat%is_fed) left = left + whole%by_supply
       end associate
     end do
     call add_result(summary, 'energy_imbalance', left/max(power, tiny(1.0_wp)))

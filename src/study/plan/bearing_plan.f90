@@ -122,6 +122,7 @@ contains
     call show_numbers(scene, log)
     call describe_foil(scene, log)
     if (scene%thermal%present) call describe_heat(scene, log)
+    if (scene%feed%present) call describe_supply(scene, log)
     if (scene%bearing%row%has_half_width) call choose_width(scene, log, plan)
     call choose_scheme(scene, log, plan)
     if (plan%floats .and. scene%operation%moment_given) then
@@ -309,6 +310,16 @@ contains
     call log%line('  '//text(maxval(lines%number))//' crests of '// &
                   text(lines(1)%stiffness*1.0e-6_wp, 5)//' N/mm^2 '//source//', springs '//springs)
   end subroutine describe_plate
+
+  !> The supply's temperature, where nothing is said of it.
+  subroutine describe_supply(scene, log)
+    type(scene_type), intent(in) :: scene
+    type(run_log_type), intent(in) :: log
+
+    if (scene%feed%temperature_given) return
+    call log%line('supply: gas at '//text(scene%feed%supply_temperature, 5)// &
+                  ' K, as supply_temperature is not given')
+  end subroutine describe_supply
 
   !> What heat flows through, and what of it is only estimated.
   subroutine describe_heat(scene, log)
