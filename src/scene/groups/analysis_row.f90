@@ -12,7 +12,8 @@ module gfb_analysis_row
 
   character(len=*), parameter :: of_bearings = ' bearing pads ramp bore gas feed grooves '// &
     'thermal shaft_contact operation sweep contact accuracy sample capacity'
-  character(len=*), parameter :: offered_often = ' pads bore feed grooves thermal shaft_contact sweep'
+  character(len=*), parameter :: offered_often = ' pads bore feed grooves thermal '// &
+    'shaft_contact sweep'
 
   character(len=*), parameter :: bearing = &
     '&bearing radius=19.05e-3 length=38.1e-3 clearance=31.8e-6 / '// &
