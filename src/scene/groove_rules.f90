@@ -70,7 +70,7 @@ contains
     real(wp), parameter :: within_pitch = 3.0e-5_wp, much = 0.01_wp !! [1]
     real(wp), parameter :: fewest_pitches = 6.0_wp !! of a pad
     type(film_surface_type) :: surface
-    real(wp) :: pitch, number, loss
+    real(wp) :: pitch, gap, number, loss
 
     associate (grooves => scene%grooves, bearing => scene%bearing, gas => scene%gas)
       if (grooves%count == 0) return
@@ -85,8 +85,10 @@ contains
         call keys%warn(groove_group, 'count', 'leaves a pad less than 6 pitches: grooves are '// &
                        'taken as infinitely many')
       end if
-      if (.not. min(gas%ambient_pressure, bearing%clearance) > 0.0_wp) return
-      number = 12.0_wp*gas%viscosity*bearing%radius/(gas%ambient_pressure*bearing%clearance**2)* &
+      gap = bearing%clearance
+      if (.not. gap > 0.0_wp) gap = scene%operation%axial_gap
+      if (.not. min(gas%ambient_pressure, gap) > 0.0_wp) return
+      number = 12.0_wp*gas%viscosity*bearing%radius/(gas%ambient_pressure*gap**2)* &
                entraining_speed(angular_speed(scene%operation%speed_rpm), bearing%radius)
       loss = within_pitch*(turn*number/real(grooves%count, wp))**2
       if (loss > much) then
