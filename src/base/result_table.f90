@@ -333,9 +333,8 @@ module gfb_result_table
     result_type('energy_imbalance', '1', number, bearing + machine, &
       'power less all heat out of the film, over the power', &
       'power less all heat out of the film, over the power: what the solver left open; of a '// &
-      'machine whose shaft conducts of all films and the shaft; with `&feed` the supply''s '// &
-      'heat counts as the power, and it is measured by the largest of them, by 1 K of its gas '// &
-      'at least'), &
+      'machine whose shaft conducts of all films and the shaft; with `&feed` the heat of '// &
+      'the supply counts, over the largest of all heats'), &
     result_type('modulus_ratio_top_foil', '1', number, bearing, &
       'modulus of the top foil over its youngs_modulus', &
       'modulus of the top foil at its mean temperature, over its `youngs_modulus`; of several '// &
@@ -760,6 +759,6 @@ module gfb_result_table
       'sweeps on several groups: how the groups'' stretches fit together')]
 
   type(result_type), parameter, public :: result_rows(*) = [ &
-    every_study, bearings, feeds, groovings, heats, transients, tilts, judgements, strips, vibrations, costs, &
-    machines, sweeps, ensembles, origins]
+    every_study, bearings, feeds, groovings, heats, transients, tilts, judgements, strips, &
+    vibrations, costs, machines, sweeps, ensembles, origins]
 end module gfb_result_table

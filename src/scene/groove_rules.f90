@@ -28,9 +28,9 @@ contains
       call keys%rule('gas', 'turbulence', scene%gas%law%turbulent, "must be 'none' with "// &
                      '&grooves in this version')
       call keys%rule(groove_group, 'on', grooves%member == on_sleeve .and. &
-                     model%foil%has_top_foil, "must be 'shaft' over a top foil, which has no "// &
-                     'grooves')
-      call keys%rule('model', 'film_scheme', model%film_scheme == film_scheme_supg, "must not "// &
+                     model%foil%has_top_foil, "must be 'shaft' over a top foil, which "// &
+                     'has no grooves')
+      call keys%rule('model', 'film_scheme', model%film_scheme == film_scheme_supg, 'must not '// &
                      "be 'supg' with &grooves: upwinding is for smooth surfaces")
       call keys%rule('model', 'half_width', model%half_width == half_width_yes .and. &
                      .not. grooves%mirrors(), 'needs bands in &grooves that mirror each other '// &
@@ -48,10 +48,10 @@ contains
     associate (grooves => scene%grooves, model => scene%model)
       call keys%rule(groove_group, 'model', grooves%member /= on_sleeve .and. grooves%member > 0, &
                      "needs on = 'sleeve': the film over grooves that turn is never steady")
-      call keys%rule(groove_group, 'model', .not. scene%bearing%is_ring(), "needs "// &
+      call keys%rule(groove_group, 'model', .not. scene%bearing%is_ring(), 'needs '// &
                      "leading_edge_condition = 'periodic': lines of the mesh follow the grooves")
       call keys%rule(groove_group, 'model', model%foil%is_known() .and. .not. &
-                     (model%has_local_springs() .or. .not. model%foil%deflects), "needs foil = "// &
+                     (model%has_local_springs() .or. .not. model%foil%deflects), 'needs foil = '// &
                      "'rigid', or 'elastic_foundation' with foundation_pressure = 'local'")
       call keys%rule(groove_group, 'model', scene%shaft_contact%present, 'must be narrow '// &
                      'beside &shaft_contact')

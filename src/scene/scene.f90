@@ -148,18 +148,25 @@ contains
       call read_sample_case(keys, scene%sample, analysis%refusal('sample'))
       allocate (scene%machine)
       call read_machine_case(keys, scene%machine, analysis)
-      if (scene%machine%present) then
-        scene%operation%speed_rpm = scene%machine%speed_rpm
-        associate (transient => scene%transient)
-          if (.not. transient%speed_changes) transient%final_speed_rpm = scene%machine%speed_rpm
-          if (.not. transient%start_gravity_given) transient%start_gravity = scene%machine%gravity
-        end associate
-      else
-        deallocate (scene%machine)
-      end if
+      call follow_machine(scene)
     end associate
     scene%general%analysis = state
   end subroutine read_groups
+
+  !> Speed and gravity are those of a machine, where there is one.
+  subroutine follow_machine(scene)
+    type(scene_type), intent(inout) :: scene
+
+    if (.not. scene%machine%present) then
+      deallocate (scene%machine)
+      return
+    end if
+    scene%operation%speed_rpm = scene%machine%speed_rpm
+    associate (transient => scene%transient)
+      if (.not. transient%speed_changes) transient%final_speed_rpm = scene%machine%speed_rpm
+      if (.not. transient%start_gravity_given) transient%start_gravity = scene%machine%gravity
+    end associate
+  end subroutine follow_machine
 
   !> Sizes of gaps of a thrust bearing are measured by one of its own: that which is held, or that
   !> of its ramp, its speed, or its supply, whichever is larger.

@@ -1,15 +1,19 @@
-!> What the ends of bands of grooves cost: a jump of the pressure in proportion to one over their number.
+!> What the ends of bands of grooves cost: a jump of the pressure in proportion to one over their
+!> number.
 !>
-!> Where a band of N grooves ends, the flow of ridges and grooves becomes even within a pitch. Far from there the film is that of
-!> `gfb_groove_film`, but its pressure has jumped between the two sides of the end,
+!> Where a band of N grooves ends, the flow of ridges and grooves becomes even within a pitch. Far
+!> from there the film is that of `gfb_groove_film`, but its pressure has jumped between the two
+!> sides of the end,
 !>
 !> $$ P_{in} - P_{out} = l \frac{12 \mu}{h^2} \Bigl( c_1 U + c_2 \frac{v}{h} \Bigr) $$
 !>
-!> with the pitch l along the motion, the flow v into the band over P, and numbers of the pattern, \( c_1 \) for a motion that pumps
-!> into the band at an open end, out of it at one with a land; for the other sense it changes its sign.
+!> with the pitch l along the motion, the flow v into the band over P, and numbers of the pattern,
+!> \( c_1 \) for a motion that pumps into the band at an open end, out of it at one with a land; for
+!> the other sense it changes its sign.
 !>
-!> Method: the linear film of one pitch, resolved, from the end, or from a land, to where it is as in an endless band; biquadratic
-!> elements along the lines, LAPACK's band solver. Lengths are over l, gaps over h.
+!> Method: the linear film of one pitch, resolved, from the end, or from a land, to where it is as
+!> in an endless band; biquadratic elements along the lines, LAPACK's band solver. Lengths are over
+!> l, gaps over h.
 module gfb_groove_ends
   use gfb_kinds, only: wp
   use gfb_units, only: pi
@@ -22,7 +26,8 @@ module gfb_groove_ends
   integer, parameter, public :: end_open = 1, end_land = 2 !! what lies outside of the band's end
 
   integer, parameter, public :: fitted = 12 !! polynomials of a fit
-  real(wp), parameter :: narrowest = 0.96_wp !! largest part of a groove's gap that is its depth, in a fit [1]
+  !> largest part of a groove's gap that is its depth, in a fit [1]
+  real(wp), parameter :: narrowest = 0.96_wp
 
   !> Of h/(h + d) in both numbers, at an open end and at a land.
   integer, parameter :: powers(2, 2) = reshape([2, 3, 2, 0], [2, 2])
@@ -36,7 +41,8 @@ module gfb_groove_ends
   real(wp), parameter :: growth = 1.42_wp   !! of an element over the one before it [1]
   real(wp), parameter :: simpson(line) = [1.0_wp, 4.0_wp, 1.0_wp]/6.0_wp
 
-  !> A band without ends: slope along the axis, and the flow that leaves through a groove and a ridge.
+  !> A band without ends: slope along the axis, and the flow that leaves through a groove and a
+  !> ridge.
   type :: far_type
     real(wp) :: slope = 0.0_wp      !! along z [1]
     real(wp) :: bend(2) = 0.0_wp    !! slope across groove and ridge beside it [1]
@@ -47,9 +53,10 @@ module gfb_groove_ends
     !> LAPACK: solves a symmetric, positive definite band system.
     pure subroutine dpbsv(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
       import :: wp
-      character, intent(in) :: uplo
+      implicit none (type, external)
+      character(len=1), intent(in) :: uplo
       integer, intent(in) :: n, kd, nrhs, ldab, ldb
-      real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
+      real(wp), intent(inout) :: ab(ldab, n), b(ldb, nrhs)
       integer, intent(out) :: info
     end subroutine dpbsv
   end interface
@@ -93,12 +100,14 @@ contains
       power = powers(k, outside)
       numbers(k) = scale**power*total(k)
       by_gap(k) = scale**power*total_by_x(k)*2.0_wp/narrowest*part_by_gap
-      if (power > 0) by_gap(k) = by_gap(k) + real(power, wp)*scale**(power - 1)*scale_by_gap*total(k)
+      if (power > 0) by_gap(k) = by_gap(k) + real(power, wp)*scale**(power &
+          - 1)*scale_by_gap*total(k)
     end do
   end subroutine end_jump
 
-  !> Chebyshev's polynomials of both numbers over d/(h + d), from 0 to 0.96, beyond which they keep their value: of
-  !> \( c_1 (1 + d/h)^2 \), and of \( c_2 (1 + d/h)^3 \) at an open end, which stay finite; over a land \( c_2 \) does.
+  !> Chebyshev's polynomials of both numbers over d/(h + d), from 0 to 0.96, beyond which they keep
+  !> their value: of \( c_1 (1 + d/h)^2 \), and of \( c_2 (1 + d/h)^3 \) at an open end, which stay
+  !> finite; over a land \( c_2 \) does.
   !>
   !> Fails where the lines are along or across the motion as far as numbers go.
   pure subroutine fit_ends(angle, ridge_part, outside, fit, error)
@@ -126,7 +135,8 @@ contains
     fit(1, :) = 0.5_wp*fit(1, :)
   end subroutine fit_ends
 
-  !> The numbers c_1, c_2 of a pattern, at an open end into which it pumps, or at a land towards which it pumps.
+  !> The numbers c_1, c_2 of a pattern, at an open end into which it pumps, or at a land towards
+  !> which it pumps.
   !>
   !> Fails where an element is folded over or the matrix has no factors.
   pure subroutine end_numbers(angle, ridge_part, depth, outside, numbers, error)
@@ -155,7 +165,8 @@ contains
     far(2) = band_without_ends(cotangent, ridge_part, depth, 0.0_wp, 1.0_wp)
     call assemble(x, z, first, cotangent, ridge_part, depth, far, matrix, pressure, error)
     if (allocated(error)) return
-    call dpbsv('U', size(pressure, 1), size(matrix, 1) - 1, 2, matrix, size(matrix, 1), pressure, size(pressure, 1), info)
+    call dpbsv('U', size(pressure, 1), size(matrix, 1) - 1, 2, matrix, size(matrix, 1), &
+        pressure, size(pressure, 1), info)
     if (info /= 0) then
       error = error_type('the film at the end of a band has no answer')
       return
@@ -163,7 +174,8 @@ contains
     do k = 1, 2
       associate (last => pressure(size(pressure, 1) - around + 1:, k))
         side = mean_of(x, last) - far(k)%slope*z(size(z))
-        if (outside == end_land .and. k == 2) side = side - z(1) ! there the flow 1 needs the slope -1
+        ! there the flow 1 needs the slope -1
+        if (outside == end_land .and. k == 2) side = side - z(1)
         numbers(k) = side
       end associate
     end do
@@ -171,9 +183,10 @@ contains
 
   !> A band that has no ends, at a motion U and a flow v along z.
   !>
-  !> With \( \xi = x - z \cot b \) the pressure is \( s z + \varphi(\xi) \), and the flow across the lines is even, which gives
-  !> \( \varphi' \); its mean over a pitch is 0.
-  pure type(far_type) function band_without_ends(cotangent, ridge_part, depth, motion, flow) result(far)
+  !> With \( \xi = x - z \cot b \) the pressure is \( s z + \varphi(\xi) \), and the flow across the
+  !> lines is even, which gives \( \varphi' \); its mean over a pitch is 0.
+  pure type(far_type) function band_without_ends(cotangent, ridge_part, depth, motion, &
+      flow) result(far)
     real(wp), intent(in) :: cotangent, ridge_part, depth, motion, flow
     real(wp) :: share(2), gap(2), sine, flows(2), across
     integer :: k
@@ -185,7 +198,8 @@ contains
     do k = 1, 2
       far%slope = real(k - 1, wp)
       across = (motion*sum(share/gap**2) + cotangent*far%slope)/sum(share/gap**3)
-      flows(k) = sum(share*(-gap**3*far%slope + cotangent*sine*(motion*gap + cotangent*gap**3*far%slope - across)))
+      flows(k) = sum(share*(-gap**3*far%slope + cotangent*sine*(motion*gap &
+          + cotangent*gap**3*far%slope - across)))
     end do
     far%slope = (flow - flows(1))/(flows(2) - flows(1))
     across = (motion*sum(share/gap**2) + cotangent*far%slope)/sum(share/gap**3)
@@ -193,7 +207,8 @@ contains
     far%flow = -gap**3*(far%slope - cotangent*far%bend)
   end function band_without_ends
 
-  !> Matrix of the film, upper triangle of its band, and right sides: of a motion without a flow, of a flow without a motion.
+  !> Matrix of the film, upper triangle of its band, and right sides: of a motion without a flow, of
+  !> a flow without a motion.
   pure subroutine assemble(x, z, first, cotangent, ridge_part, depth, far, matrix, right, error)
     real(wp), intent(in) :: x(:), z(:) !! of the nodes at the band's end; along it
     integer, intent(in) :: first !! row of the band's end
@@ -271,7 +286,8 @@ contains
     real(wp) :: side(0:sides)
     integer :: i
 
-    side = [(0.5_wp*(first + last) + 0.5_wp*(last - first)*tanh(rate*(2.0_wp*real(i, wp)/real(sides, wp) - 1.0_wp))/tanh(rate), &
+    side = [(0.5_wp*(first + last) + 0.5_wp*(last - first)*tanh(rate*(2.0_wp*real(i, &
+        wp)/real(sides, wp) - 1.0_wp))/tanh(rate), &
              i=0, sides)]
     place(1::2) = side(:sides - 1)
     place(2::2) = 0.5_wp*(side(:sides - 1) + side(1:))

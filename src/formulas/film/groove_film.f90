@@ -1,17 +1,22 @@
 !> Element of a film one of whose surfaces has narrow grooves: their limit of infinitely many.
 !>
-!> A cell of the pattern has a ridge, gap h, and a groove, gap h + d, of the share g. The pressure is even in it, and so are the
-!> flow across the lines of the pattern, along n, and the slope along them, along t:
+!> A cell of the pattern has a ridge, gap h, and a groove, gap h + d, of the share g. The pressure
+!> is even in it, and so are the flow across the lines of the pattern, along n, and the slope along
+!> them, along t:
 !>
-!> $$ \langle f \rangle = (1 - g) f(h) + g f(h + d), \quad K_n = 1/\langle 1/G \rangle, \quad K_t = \langle G \rangle,
+!> $$ \langle f \rangle = (1 - g) f(h) + g f(h + d), \quad
+!>    K_n = 1/\langle 1/G \rangle, \quad K_t = \langle G \rangle,
 !>    \quad H_n = \langle h/G \rangle/\langle 1/G \rangle, \quad H_t = \langle h \rangle $$
 !>
-!> with \( G = h^3 (1 + 6 \lambda/h) \). In gfb's frame the flow of the gas is \( q/r = -K \nabla p/(12 \mu) + U S \) with the density r
-!> of `gfb_gas_law`, half the shaft's speed U along x, and the shear vector \( S = H e_x \) where the grooves stand still,
-!> \( S = (2 \langle h \rangle I - H) e_x \) where they turn with the shaft. Grooves on the shaft add nothing that changes in time: the
-!> pressure is steady in this frame.
+!> with \( G = h^3 (1 + 6 \lambda/h) \). In gfb's frame the flow of the gas is \( q/r =
+!> -K \nabla p/(12 \mu) + U S \) with the density r of `gfb_gas_law`, half the shaft's speed U
+!> along x, and the shear vector \( S = H e_x \) where the grooves stand still,
+!> \( S = (2 \langle h \rangle I - H) e_x \) where they turn with the shaft.
+!> Grooves on the shaft add nothing that changes in time:
+!> the pressure is steady in this frame.
 !>
-!> Near the end of a band the jump of `gfb_groove_ends` is spread over a narrow strip, where it adds to the slope along z.
+!> Near the end of a band the jump of `gfb_groove_ends` is spread over a narrow strip, where it adds
+!> to the slope along z.
 !>
 !> Source: [VohrChow1965], derived anew with the frame of the grooves, where \( w = \pm U e_x \).
 module gfb_groove_film
@@ -22,7 +27,8 @@ module gfb_groove_film
   use gfb_groove_ends, only: fitted, end_open, end_jump
   implicit none (type, external)
   private
-  public :: groove_residual, groove_jacobian, groove_friction, groove_friction_rates, mean_depth, groove_jump
+  public :: groove_residual, groove_jacobian, groove_friction, groove_friction_rates, &
+      mean_depth, groove_jump
 
   !> The grooves of an element. Without a share there are none.
   type, public :: groove_type
@@ -31,7 +37,8 @@ module gfb_groove_film
     real(wp) :: along(2) = [1.0_wp, 0.0_wp] !! t, along the lines (x, z) [1]
     logical :: turns = .false.      !! they are on the shaft
     integer :: band = 0             !! its number
-    real(wp) :: spread = 0.0_wp     !! pitch over the width on which the jump at the band's end is spread; 0: there is none [1]
+    !> pitch over the width on which the jump at the band's end is spread; 0: there is none [1]
+    real(wp) :: spread = 0.0_wp
     real(wp) :: side = 1.0_wp       !! 1: the band lies behind its end, -1: before it, along z or r
     real(wp) :: sense = 1.0_wp      !! 1: the motion pumps as in the fit, -1: against it
     integer :: outside = end_open   !! of the band's end
@@ -39,7 +46,8 @@ module gfb_groove_film
     real(wp) :: fit(fitted, 2) = 0.0_wp !! see `gfb_groove_ends`
   end type groove_type
 
-  ! A number that follows pressure and gap is a list: itself, its derivative by p, its derivative by h.
+  ! A number that follows pressure and gap is a list: itself, its derivative by p, its derivative
+  ! by h.
   integer, parameter :: value = 1, by_p = 2, by_h = 3
 
   !> What a pattern makes of the film at a point.
@@ -59,7 +67,8 @@ contains
 
   !> Residual of the film's equation on one element.
   !>
-  !> $$ r_a = \int_{\Omega^e} \nabla N_a \cdot \Bigl( \frac{r}{12 \mu} K \nabla p - r U S \Bigr) d\Omega $$
+  !> $$ r_a = \int_{\Omega^e} \nabla N_a \cdot \Bigl( \frac{r}{12 \mu} K \nabla p - r U S \Bigr)
+  !>    d\Omega $$
   pure subroutine groove_residual(geometry, flow, law, groove, pressure, gap, excess, residual)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(film_flow_type), intent(in) :: flow !! speed of the film
@@ -77,7 +86,8 @@ contains
     residual = 0.0_wp
     do i = 1, size(gap)
       associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i))
-        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) &
+            + excess(i))
         speed = geometry%stretch(i)*flow%entraining_speed
         ! Less one node's pressure: an even pressure has no gradient to the last digit.
         slope = matmul(gradient, pressure - pressure(1))
@@ -88,7 +98,8 @@ contains
   end subroutine groove_residual
 
   !> Exact derivatives of `groove_residual` by the nodal pressures and gaps, and by the excess.
-  pure subroutine groove_jacobian(geometry, flow, law, groove, pressure, gap, excess, by_pressure, by_gap, by_excess)
+  pure subroutine groove_jacobian(geometry, flow, law, groove, pressure, gap, excess, &
+      by_pressure, by_gap, by_excess)
     type(film_geometry_type), intent(in) :: geometry !! the element at its points
     type(film_flow_type), intent(in) :: flow !! speed of the film
     type(gas_law_type), intent(in) :: law    !! of the gas
@@ -108,8 +119,10 @@ contains
     by_pressure = 0.0_wp
     by_gap = 0.0_wp
     do i = 1, size(gap)
-      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), area => geometry%area(i))
-        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) + excess(i))
+      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), &
+          area => geometry%area(i))
+        here = pattern_at(law, groove, dot_product(shape, pressure), dot_product(shape, gap) &
+            + excess(i))
         speed = geometry%stretch(i)*flow%entraining_speed
         slope = matmul(gradient, pressure - pressure(1))
         flux_p = flux_of(here%mobility(by_p, :), slope) &
@@ -122,8 +135,8 @@ contains
         driven = area*(flux_p(1)*gradient(1, :) + flux_p(2)*gradient(2, :))
         by_excess(:, i) = area*(flux_h(1)*gradient(1, :) + flux_h(2)*gradient(2, :))
         do b = 1, size(gap)
-          by_pressure(:, b) = by_pressure(:, b) + gradient(1, b)*moved(:, 1) + gradient(2, b)*moved(:, 2) &
-            + shape(b)*driven
+          by_pressure(:, b) = by_pressure(:, b) + gradient(1, b)*moved(:, 1) &
+            + gradient(2, b)*moved(:, 2) + shape(b)*driven
           by_gap(:, b) = by_gap(:, b) + shape(b)*by_excess(:, i)
         end do
       end associate
@@ -132,12 +145,15 @@ contains
 
   !> Drag of the film on the shaft.
   !>
-  !> $$ D = \int \Bigl( 2 \mu U \Bigl\langle \frac{1}{h + 2 \lambda} \Bigr\rangle + \frac{1}{2} S \cdot \nabla p
-  !>      + 6 \mu U n_x^2 \Bigl( \langle h^2/G \rangle - H_n \langle h/G \rangle \Bigr) \Bigr) \frac{r}{R} \, d\Omega $$
+  !> $$ D = \int \Bigl( 2 \mu U \Bigl\langle \frac{1}{h + 2 \lambda} \Bigr\rangle + \frac{1}{2} S
+  !>    \cdot \nabla p
+  !>      + 6 \mu U n_x^2 \Bigl( \langle h^2/G \rangle - H_n \langle h/G \rangle \Bigr) \Bigr)
+  !>    \frac{r}{R} \, d\Omega $$
   !>
-  !> It is the shear on the shaft and, where the grooves are on it, the pressure on their walls. The last term is the slope of the
-  !> pressure from ridge to groove and back.
-  pure real(wp) function groove_friction(geometry, flow, law, groove, pressure, gap, excess) result(drag)
+  !> It is the shear on the shaft and, where the grooves are on it, the pressure on their walls. The
+  !> last term is the slope of the pressure from ridge to groove and back.
+  pure real(wp) function groove_friction(geometry, flow, law, groove, pressure, gap, &
+      excess) result(drag)
     type(film_geometry_type), intent(in) :: geometry !! of the element
     type(film_flow_type), intent(in) :: flow !! speed of the film
     type(gas_law_type), intent(in) :: law    !! of the gas
@@ -165,7 +181,8 @@ contains
   end function groove_friction
 
   !> Derivatives of that drag.
-  pure subroutine groove_friction_rates(geometry, flow, law, groove, pressure, gap, excess, by_pressure, by_gap)
+  pure subroutine groove_friction_rates(geometry, flow, law, groove, pressure, gap, excess, &
+      by_pressure, by_gap)
     type(film_geometry_type), intent(in) :: geometry !! of the element
     type(film_flow_type), intent(in) :: flow !! speed of the film
     type(gas_law_type), intent(in) :: law    !! of the gas
@@ -183,7 +200,8 @@ contains
     by_pressure = 0.0_wp
     by_gap = 0.0_wp
     do i = 1, size(gap)
-      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), area => geometry%area(i)*geometry%stretch(i))
+      associate (shape => shapes(:, i), gradient => geometry%gradient(:, :, i), &
+          area => geometry%area(i)*geometry%stretch(i))
         p = dot_product(shape, pressure)
         h = dot_product(shape, gap) + excess(i)
         here = pattern_at(law, without_end(groove), p, h)
@@ -192,7 +210,8 @@ contains
         slope = matmul(gradient, pressure - pressure(1))
         by_pressure = by_pressure + area*(0.5_wp*matmul(here%shear(value, :), gradient) &
           + (2.0_wp*speed*drive(by_p) + 0.5_wp*dot_product(here%shear(by_p, :), slope))*shape)
-        by_gap = by_gap + area*(2.0_wp*speed*drive(by_h) + 0.5_wp*dot_product(here%shear(by_h, :), slope))*shape
+        by_gap = by_gap + area*shape*(2.0_wp*speed*drive(by_h) &
+                                      + 0.5_wp*dot_product(here%shear(by_h, :), slope))
       end associate
     end do
   end subroutine groove_friction_rates
@@ -237,7 +256,8 @@ contains
       here%shear = -here%shear
       here%shear(:, 1) = here%shear(:, 1) + 2.0_wp*height
     end if
-    if (groove%spread > 0.0_wp) call add_end(groove, gap, across*cosine**2 + conductance*sine**2, here)
+    if (groove%spread > 0.0_wp) call add_end(groove, gap, across*cosine**2 &
+        + conductance*sine**2, here)
   end function pattern_at
 
   !> K_n, K_t, H_n, H_t of groove and ridge.
@@ -247,7 +267,7 @@ contains
     real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
     real(wp), intent(out) :: across(3), conductance(3) !! [m3]
     real(wp), intent(out) :: lag(3), height(3)         !! [m]
-    real(wp) :: open(3, 2), share(2), closed(2), h(2), resistance(3), dragged(3)
+    real(wp) :: way(3, 2), share(2), closed(2), h(2), resistance(3), dragged(3)
     integer :: i
 
     share = [1.0_wp - groove%share, groove%share]
@@ -255,14 +275,15 @@ contains
     resistance = 0.0_wp
     dragged = 0.0_wp
     do i = 1, 2
-      open(:, i) = conductance_of(law, pressure, h(i))
-      closed(i) = 1.0_wp/open(value, i)
+      way(:, i) = conductance_of(law, pressure, h(i))
+      closed(i) = 1.0_wp/way(value, i)
       associate (of_open => share(i)*closed(i), part => share(i)*closed(i)**2)
-        resistance = resistance + [of_open, -part*open(by_p, i), -part*open(by_h, i)]
-        dragged = dragged + [of_open*h(i), -part*h(i)*open(by_p, i), of_open - part*h(i)*open(by_h, i)]
+        resistance = resistance + [of_open, -part*way(by_p, i), -part*way(by_h, i)]
+        dragged = dragged + [of_open*h(i), -part*h(i)*way(by_p, i), of_open &
+            - part*h(i)*way(by_h, i)]
       end associate
     end do
-    conductance = share(1)*open(:, 1) + share(2)*open(:, 2)
+    conductance = share(1)*way(:, 1) + share(2)*way(:, 2)
     height = [gap + mean_depth(groove), 0.0_wp, 1.0_wp]
     across(value) = 1.0_wp/resistance(value)
     across(by_p:) = -across(value)**2*resistance(by_p:)
@@ -276,7 +297,8 @@ contains
     real(wp), intent(in) :: pressure, gap !! p [Pa], h [m]
     real(wp) :: drag(3)
     real(wp), parameter :: one(3) = [1.0_wp, 0.0_wp, 0.0_wp]
-    real(wp), dimension(3) :: h, entrained, dragged, squared, couette, across, conductance, lag, height
+    real(wp), dimension(3) :: h, entrained, dragged, squared, couette, across, conductance, lag, &
+        height
     type(gas_state_type) :: gas
     real(wp) :: share(2)
     integer :: i
@@ -294,13 +316,15 @@ contains
       squared = squared + share(i)*times(h, entrained)
       couette = couette + share(i)*over(one, slipping(law, pressure, h(value)))
     end do
-    drag = times([gas%mu, gas%mu_p, 0.0_wp], couette + 3.0_wp*groove%along(2)**2*(squared - times(lag, dragged)))
+    drag = times([gas%mu, gas%mu_p, 0.0_wp], couette + 3.0_wp*groove%along(2)**2*(squared &
+        - times(lag, dragged)))
   end function drag_at
 
   !> Adds the jump at a band's end to the slope in its strip.
   !>
-  !> There the band's own slope is \( p_z - \sigma J/w \) with the jump J, the strip's width w and the side \( \sigma \) of the band.
-  !> J is linear in the flow across, so that \( q_z/r \) has the factor \( D = 1/(1 - c_2 K_{zz} l/(w h^3)) \), and a shear of its own.
+  !> There the band's own slope is \( p_z - \sigma J/w \) with the jump J, the strip's width w and
+  !> the side \( \sigma \) of the band. J is linear in the flow across, so that \( q_z/r \) has the
+  !> factor \( D = 1/(1 - c_2 K_{zz} l/(w h^3)) \), and a shear of its own.
   pure subroutine add_end(groove, gap, open, here)
     type(groove_type), intent(in) :: groove
     real(wp), intent(in) :: gap     !! h [m]
@@ -324,8 +348,10 @@ contains
     here%mobility(:, 3) = times(factor, here%mobility(:, 3))
   end subroutine add_end
 
-  !> The jump of the pressure at a band's end, into the band, times the area of an element of its strip [N].
-  pure real(wp) function groove_jump(geometry, flow, law, groove, pressure, gap, excess) result(jump)
+  !> The jump of the pressure at a band's end, into the band, times the area of an element of its
+  !> strip [N].
+  pure real(wp) function groove_jump(geometry, flow, law, groove, pressure, gap, &
+      excess) result(jump)
     type(film_geometry_type), intent(in) :: geometry !! of the element
     type(film_flow_type), intent(in) :: flow !! speed of the film
     type(gas_law_type), intent(in) :: law    !! of the gas
@@ -361,7 +387,8 @@ contains
     real(wp) :: open(3), slip
 
     slip = 6.0_wp*law%mean_free_path*law%ambient_pressure
-    open = [gap**3 + slip*gap**2/pressure, -slip*(gap/pressure)**2, 3.0_wp*gap**2 + 2.0_wp*slip*gap/pressure]
+    open = [gap**3 + slip*gap**2/pressure, -slip*(gap/pressure)**2, 3.0_wp*gap**2 &
+        + 2.0_wp*slip*gap/pressure]
   end function conductance_of
 
   !> The gap, as wide as it is to a flow of shear [m].

@@ -43,7 +43,8 @@ contains
     if (contact%present) rate = -contact_pressure(contact, gap)/contact%roughness
   end function contact_pressure_rate
 
-  !> Part of the pressure that grooves of a share g and a depth d leave, \( 1 - g + g e^{-d/\sigma} \) at every gap [1].
+  !> Part of the pressure that grooves of a share g and a depth d leave, \( 1 - g + g e^{-d/\sigma}
+  !> \) at every gap [1].
   elemental real(wp) function contact_left(contact, share, depth) result(left)
     type(solid_contact_type), intent(in) :: contact !! asperities of shaft and foil
     real(wp), intent(in) :: share !! g, of the groove in the pattern [1]

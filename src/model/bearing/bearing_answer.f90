@@ -145,12 +145,7 @@ contains
       end if
     end if
     answer%power_loss = answer%friction_torque*bearing%point%speed
-    if (allocated(bearing%feed)) then
-      answer%feed = feed_answer(bearing, bearing%position(unknown), unknown, gap)
-    end if
-    if (bearing%pad(1)%film%has_grooves()) then
-      answer%grooves = groove_answer(bearing, bearing%position(unknown), unknown, gap)
-    end if
+    call read_flows(bearing, unknown, gap, answer)
     answer%minimum_gap = -largest(1)
     if (whole) answer%thinnest = place_of_gap(bearing, gap, answer%minimum_gap)
     answer%minimum_gap_midplane = -largest(2)
@@ -167,6 +162,21 @@ contains
       if (answer%ring%sides > 1) call read_other_side(bearing, answer)
     end if
   end function bearing_answer
+
+  !> What supplies and grooves bring into the film.
+  subroutine read_flows(bearing, unknown, gap, answer)
+    class(bearing_type), intent(in) :: bearing
+    real(wp), intent(in) :: unknown(:) !! local, in SI
+    real(wp), intent(in) :: gap(:)     !! at this rank's nodes of all films [m]
+    type(bearing_answer_type), intent(inout) :: answer
+
+    if (allocated(bearing%feed)) then
+      answer%feed = feed_answer(bearing, bearing%position(unknown), unknown, gap)
+    end if
+    if (bearing%pad(1)%film%has_grooves()) then
+      answer%grooves = groove_answer(bearing, bearing%position(unknown), unknown, gap)
+    end if
+  end subroutine read_flows
 
   !> What a thrust bearing's pads are, and where their pressure is centred.
   function ring_answer(bearing, pressure) result(answer)

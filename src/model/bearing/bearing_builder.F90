@@ -31,8 +31,10 @@ module gfb_bearing_builder
   use gfb_gas_film, only: gas_film_type, create_gas_film, put_strips, freeze_film, frozen_heat_type
   use gfb_heat_switch, only: follow_frozen
   use gfb_changed_foil, only: take_foil_numbers
-  use gfb_feed_builder, only: find_feed, take_feed_numbers
-  use gfb_film_refinement, only: refine_at_holes, meet_bands, lay_along_grooves
+  use gfb_feed_builder, only: find_feed
+  use gfb_feed_numbers, only: take_feed_numbers
+  use gfb_film_refinement, only: refine_at_holes, meet_bands
+  use gfb_groove_mesh, only: lay_along_grooves
   use gfb_groove_case, only: groove_case_type
   use gfb_groove_film, only: groove_type
   use gfb_solid_contact, only: solid_contact_type, contact_left

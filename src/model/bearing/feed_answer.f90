@@ -60,14 +60,16 @@ contains
     end associate
   end function feed_answer
 
-  !> Work to compress the gas to a part of the supply's pressure over ambient, over that to all of it: of an ideal gas [1].
+  !> Work to compress the gas to a part of the supply's pressure over ambient, over that to all of
+  !> it: of an ideal gas [1].
   pure real(wp) function part_of_work(feed, part) result(work)
     type(film_feed_type), intent(in) :: feed
     real(wp), intent(in) :: part !! of what the supply has above ambient pressure [1]
 
     work = 1.0_wp
     if (.not. (feed%supply > feed%ambient .and. abs(part - 1.0_wp) > 0.0_wp)) return
-    work = log(supply_at(feed%supply, feed%ambient, part)/feed%ambient)/log(feed%supply/feed%ambient)
+    work = log(supply_at(feed%supply, feed%ambient, &
+        part)/feed%ambient)/log(feed%supply/feed%ambient)
   end function part_of_work
 
   !> What a piece of a line feeds [Pa m3/s].

@@ -6,8 +6,9 @@
 !>    \frac{\partial h}{\partial q} = b, \quad \frac{dh}{dt} = -2 \Omega \dot\Omega \sum_p g_p $$
 !>
 !> with the foil's deflection \( h_f \) and the motions b of the film's surface. Inside an element,
-!> springs of its own add \( (c_p - c) (p - p_a) \) to the deflection of its nodes. Narrow grooves take
-!> nothing off: h is the gap of their ridges, and `gfb_groove_film` has what they do to the film.
+!> springs of its own add \( (c_p - c) (p - p_a) \) to the deflection of its nodes. Narrow grooves
+!> take nothing off: h is the gap of their ridges, and `gfb_groove_film` has what they do to the
+!> film.
 module gfb_gap_part
   use gfb_kinds, only: wp
   use gfb_groove_film, only: groove_type

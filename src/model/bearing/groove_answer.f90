@@ -43,7 +43,8 @@ contains
     answer%present = .true.
     mean = 0.0_wp
     do i = 1, size(bearing%pad)
-      associate (pad => bearing%pad(i), nodes => bearing%pad(i)%last_node - bearing%pad(i)%first_node)
+      associate (pad => bearing%pad(i), nodes => bearing%pad(i)%last_node &
+          - bearing%pad(i)%first_node)
         associate (pressure => unknown(pad%first + 1:pad%first + nodes))
           flows = spread(0.0_wp, 1, nodes)
           call pad%film%add_flows(pressure, gap(pad%first_node + 1:pad%last_node), point, flows)
@@ -110,9 +111,11 @@ contains
           associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element), &
                      excess => film%excess(element, point))
             jump(:, groove%outside, groove%band) = jump(:, groove%outside, groove%band) + &
-              [groove_jump(geometry, film%flow_at(point), film%law, groove, unknown(pad%first + nodes), &
+              [groove_jump(geometry, film%flow_at(point), film%law, groove, unknown(pad%first &
+                  + nodes), &
                            film%element_gap(element, unknown(pad%first + 1:pad%last), &
-                                            gap(pad%first_node + 1:pad%last_node)), excess(:size(nodes))), &
+                                            gap(pad%first_node + 1:pad%last_node)), &
+                                                excess(:size(nodes))), &
                sum(geometry%area)]
           end associate
         end do

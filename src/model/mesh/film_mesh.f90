@@ -25,7 +25,8 @@ module gfb_film_mesh
     real(wp), allocatable :: station_angle(:)  !! theta of the stations [rad]
     !> s of the rows: z, 0 at the midplane, of a cylinder [m]
     real(wp), allocatable :: row_axial(:)
-    !> by which the stations of each row are turned, where they follow grooves; none: they are not [rad]
+    !> by which the stations of each row are turned, where they follow grooves; none: they are not
+    !> [rad]
     real(wp), allocatable :: slant(:)
   contains
     procedure, non_overridable :: stations => film_stations
@@ -244,7 +245,8 @@ contains
     end do
   end function row_weights
 
-  !> By which the stations are turned at a place across the motion, between rows in proportion [rad].
+  !> By which the stations are turned at a place across the motion, between rows in proportion
+  !> [rad].
   pure real(wp) function slant_at(self, axial) result(slant)
     class(film_mesh_type), intent(in) :: self !! the film's mesh
     real(wp), intent(in) :: axial !! s on the meshed width [m]
@@ -269,7 +271,8 @@ contains
 
     station = angle
     if (allocated(mesh%slant)) then ! those are rings
-      station = mesh%station_angle(1) + modulo(angle - mesh%slant_at(axial) - mesh%station_angle(1), turn)
+      station = mesh%station_angle(1) + modulo(angle - mesh%slant_at(axial) &
+          - mesh%station_angle(1), turn)
     end if
     if (mesh%periodic) then
       call find_interval([mesh%station_angle, mesh%station_angle(1) + turn], station, i, along)

@@ -20,7 +20,8 @@ module gfb_groove_case
 
   integer, parameter, public :: on_shaft = 1, on_sleeve = 2
   integer, parameter, public :: grooves_narrow = 1   !! infinitely many
-  integer, parameter, public :: grooves_with_ends = 2 !! and what their number costs at the ends of bands
+  !> and what their number costs at the ends of bands
+  integer, parameter, public :: grooves_with_ends = 2
   integer, parameter, public :: grooves_resolved = 3 !! as many as there are
   integer, parameter :: fewest_elements = 4 !! of a pitch
   ! Those that give the load of the rows of two programs to 2e-3, of 8 to 48 grooves.
@@ -35,8 +36,10 @@ module gfb_groove_case
   character(len=*), parameter :: pumping_words(*) = [character(len=4) :: 'up', 'down']
   real(wp), parameter :: rounding = 1.0e-9_wp !! of places that are meant to be equal, relative
   real(wp), parameter :: most_grooves = 1000.0_wp
-  real(wp), parameter :: flattest = 0.05_wp, steepest = 1.5_wp !! lines of bands whose ends are weighed [rad]
-  !> Of a pitch, on which the jump at an end is spread: about as wide as the flow takes to become even.
+  !> lines of bands whose ends are weighed [rad]
+  real(wp), parameter :: flattest = 0.05_wp, steepest = 1.5_wp
+  !> Of a pitch, on which the jump at an end is spread: about as wide as the flow takes to become
+  !> even.
   real(wp), parameter :: strip_part = 0.1_wp
   real(wp), parameter :: most_of_band = 0.2_wp !! that a strip may take
 
@@ -86,7 +89,8 @@ contains
                             'the grooves and the motion, one value or one of each band; of '// &
                             'thrust bearings the lines are logarithmic spirals', &
                             between(0.0_wp, 0.5_wp*pi), .true., 'required')
-    call keys%real_key('depth', grooves%depth, 'm', 'of the grooves below the ridges, whose gap '// &
+    call keys%real_key('depth', grooves%depth, 'm', &
+        'of the grooves below the ridges, whose gap '// &
                        'is the clearance', not_negative, .true.)
     call keys%real_key('ridge_part', grooves%ridge_part, '1', 'width of a ridge over that of '// &
                        'ridge and groove', between(0.0_wp, 1.0_wp))
@@ -101,8 +105,8 @@ contains
                             'band: where the motion drives the gas, to larger or to smaller z, '// &
                             'or radius', .true.)
     call keys%choice_key('model', grooves%model, model_words, 'what is solved: the limit of '// &
-                         'infinitely many grooves; the same with what their number costs at the '// &
-                         'ends of bands; or each of them on a mesh along its lines, on a '// &
+                         'infinitely many grooves; the same with what their number costs at '// &
+                         'the ends of bands; or each of them on a mesh along its lines, on a '// &
                          'sleeve or ring that stands still')
     call keys%integer_key('count', grooves%count, 'grooves of a band around the shaft; in the '// &
                           'limit they are taken as infinitely many, and this says what that '// &
@@ -129,7 +133,8 @@ contains
     real(wp) :: rows(2), slack
     integer :: i
 
-    associate (first => grooves%band_begin, last => grooves%band_end, bands => size(grooves%band_begin))
+    associate (first => grooves%band_begin, last => grooves%band_end, &
+        bands => size(grooves%band_begin))
       if (bands == 0) return
       call check_length('band_end', size(last))
       call check_length('pumping', size(grooves%pumping))
@@ -230,7 +235,8 @@ contains
     allocate (grooves%end(0))
     surface = surface_of(bearing)
     rows = pad_rows(bearing)
-    associate (first => grooves%band_begin, last => grooves%band_end, slack => rounding*maxval(abs(rows)))
+    associate (first => grooves%band_begin, last => grooves%band_end, &
+        slack => rounding*maxval(abs(rows)))
       do band = 1, size(first)
         do k = 1, 2
           place = merge(first(band), last(band), k == 1)
@@ -238,7 +244,8 @@ contains
           end%band = band
           end%side = merge(1.0_wp, -1.0_wp, k == 1)
           end%outside = merge(end_open, end_land, abs(rows(k) - place) <= slack)
-          if (end%outside == end_open .and. k == 1 .and. bearing%inner_edge == inner_edge_sealed) cycle
+          if (end%outside == end_open .and. k == 1 .and. &
+              bearing%inner_edge == inner_edge_sealed) cycle
           end%pitch = turn*surface%radius_at(place)/real(grooves%count, wp)
           width = min(strip_part*end%pitch, most_of_band*(last(band) - first(band)))
           end%strip = merge([place, place + width], [place - width, place], k == 1)
@@ -302,10 +309,12 @@ contains
     integer, intent(in), optional :: wanted !! about so many; default: what usually suffices
 
     elements = self%count*usual_elements
-    if (self%count > 0) elements = self%count*max(usual_elements, (usual_around + self%count - 1)/self%count)
+    if (self%count > 0) elements = self%count*max(usual_elements, (usual_around + self%count &
+        - 1)/self%count)
     if (present(wanted)) then
       elements = wanted
-      if (self%are_resolved()) elements = self%count*max(fewest_elements, nint(real(wanted, wp)/real(self%count, wp)))
+      if (self%are_resolved()) elements = self%count*max(fewest_elements, nint(real(wanted, &
+          wp)/real(self%count, wp)))
     end if
   end function elements_around
 
