@@ -257,7 +257,7 @@ module gfb_result_table
     result_type('flow_low', 'Pa m^3/s', number, bearing, &
       'of gas out of the end of lower z, or radius', &
       'the same: p times the volume of gas a time that leaves the end of lower z, or the inner '// &
-      'radius; over Rg T it is the mass flow'), &
+      'radius; over `Rg T` it is the mass flow'), &
     result_type('flow_high', 'Pa m^3/s', number, bearing, &
       'of gas out of the end of higher z, or radius', &
       'the same of the end of higher z, or the outer radius'), &

@@ -18,8 +18,8 @@ from gfb_run import Checks, solve, summary_difference
 from restart import SEED, check_kills
 from transient import history
 
-REFERENCE = {row["name"].split()[0]: row for row in
-             json.loads((pathlib.Path(__file__).parent/"reference"/"groove.json").read_text(encoding="utf-8"))["narrow_groove"]}
+NUMBERS = json.loads((pathlib.Path(__file__).parent/"reference"/"groove.json").read_text(encoding="utf-8"))
+REFERENCE = {row["name"].split()[0]: row for row in NUMBERS["narrow_groove"]}
 FEW = ("J1", "J2", "J4", "J5", "T1", "T5", "F1")
 FINER = "J7"            # no depth: damping of tilts of a plain film, 1.3e-3 off on the default mesh, 3e-4 on the finer one
 IN_LAND = ("J3", "J4")  # where the highest mean pressure is not at the end of a band
@@ -331,6 +331,58 @@ def check_foils(checks, folder, foils):
         checks.that(f"{foil}: grooves change the film", abs(answer["minimum_gap"]/smooth["minimum_gap"] - 1.0) > 0.01)
 
 
+def scaled(row, model):
+    """Groups of a case that has no units but those of its radius, gap and ambient pressure."""
+    radius, gap, ambient = 0.02, 1.0e-5, AIR["ambient_pressure"]
+    speed = row["Lam"]*ambient*gap**2/(6.0*AIR["viscosity"]*radius**2)*30.0/math.pi
+    grooves = {"on": "sleeve", "angle": math.radians(row["angle"]), "depth": row["depth"]*gap, "ridge_part": row["ridge_part"],
+               "count": row["N"], "model": model}
+    if row["kind"] == "journal":
+        half = row["B"]*radius
+        bearing = {"radius": radius, "length": 2.0*half, "clearance": gap, "leading_edge_condition": "periodic"}
+        grooves |= {"band_begin": [-half, 0.0], "band_end": [0.0, half], "pumping": ["up", "down"]}
+        return grooved(grooves, {"speed_rpm": speed, "eccentricity": [row["eps"]*gap, 0.0]}, bearing=bearing), ambient, radius
+    bearing = {"kind": "thrust", "outer_radius": radius, "inner_radius": row["R_i"]*radius, "leading_edge_condition": "periodic"}
+    grooves |= {"band_begin": [row["land_to"]*radius], "band_end": [radius], "pumping": ["down"]}
+    return grooved(grooves, {"speed_rpm": speed, "axial_gap": gap}, bearing=bearing), ambient, radius
+
+
+def check_resolved(checks, folder, rows):
+    """Grooves that are meshed: pressure and force of two programs, whose corners are singular, too; half and whole, ranks."""
+    for i, row in enumerate(rows):
+        groups, ambient, radius = scaled(row, "resolved")
+        answer = solve(folder, f"resolved_{i}", groups)
+        values = row["values"]
+        size = math.hypot(values.get("force_x", 0.0), values.get("force_y", 0.0))
+        for quantity, value in values.items():
+            name = f"resolved, {row['kind']}, {row['N']} grooves: {quantity}"
+            if quantity == "mid_pressure":
+                checks.below(name, (answer["pumped_pressure"]/ambient + 1.0)/value - 1.0, 2.0e-3)
+            else:
+                found = answer[quantity]/(ambient*radius**2)
+                checks.below(name, (found - value)/(size or value), max(2.0e-3, row["agreement"]))
+    grooves = HERRINGBONE | {"count": 10, "model": "resolved"}
+    mesh = {"circumferential_elements": 60, "axial_elements": 16}
+    half = solve(folder, "resolved_half", grooved(grooves, PLACE, mesh=mesh))
+    whole = solve(folder, "resolved_whole", grooved(grooves, PLACE, mesh=mesh, model=WHOLE))
+    several = solve(folder, "resolved_ranks", grooved(grooves, PLACE, mesh=mesh), ranks=3)
+    for quantity in ("force_x", "force_y", "pumped_pressure", "friction_torque"):
+        checks.below(f"resolved, half and whole: {quantity}", whole[quantity]/half[quantity] - 1.0, 1.0e-11)
+        checks.below(f"resolved, three ranks: {quantity}", several[quantity]/half[quantity] - 1.0, 1.0e-11)
+
+
+def check_ends(checks, folder):
+    """Loss of load by the ends of a ring's band against grooves that two programs resolved, 24 and 48 of them."""
+    ring = next(row for row in NUMBERS["resolved"] if row["kind"] == "ring")
+    for row in NUMBERS["end_layers"]["load_loss_of_T1"]:
+        if row["Lam"] != 10 or row["N"] < 24:
+            continue
+        force = [solve(folder, f"ends_{model}_{row['N']}", scaled(ring | {"Lam": row["Lam"], "N": row["N"]}, model)[0])["axial_force"]
+                 for model in ("narrow", "narrow_with_ends")]
+        checks.below(f"ends, {row['N']} grooves: loss of load", (1.0 - force[1]/force[0])/row["resolved"] - 1.0,
+                     0.03 if row["N"] == 24 else 0.015)
+
+
 def check_restart(checks, folder):
     """A sweep over the speed that is killed goes on to the same digits."""
     check_kills(checks, folder, "grooves", grooved(
@@ -356,6 +408,9 @@ def main():
         check_keys(checks, folder)
         check_feed(checks, folder)
         check_foils(checks, folder, ("beam", "shell") if long else ("beam",))
+        resolved = NUMBERS["resolved"]
+        check_resolved(checks, folder, resolved if long else [row for row in resolved if row["N"] == 12 and row["kind"] == "journal"])
+        check_ends(checks, folder)
         check_restart(checks, folder)
     checks.close()
 
