@@ -441,10 +441,9 @@ contains
     type(run_log_type), intent(in) :: log
     type(groove_answer_type), intent(in) :: grooves
 
-    call log%line('grooves          pumped up by '//engineering_text(grooves%pumped, 'kPa', &
-        1.0e-3_wp)// &
-                  '; out of the ends '//text(grooves%flow(1), 3)//', '//text(grooves%flow(2), &
-                      3)//' Pa m3/s')
+    call log%line('grooves          pumped up by '// &
+                  engineering_text(grooves%pumped, 'kPa', 1.0e-3_wp)//'; out of the ends '// &
+                  text(grooves%flow(1), 3)//', '//text(grooves%flow(2), 3)//' Pa m3/s')
   end subroutine show_grooves
 
   !> Where the runner is, and what the foils do.

@@ -100,8 +100,8 @@ contains
       power = powers(k, outside)
       numbers(k) = scale**power*total(k)
       by_gap(k) = scale**power*total_by_x(k)*2.0_wp/narrowest*part_by_gap
-      if (power > 0) by_gap(k) = by_gap(k) + real(power, wp)*scale**(power &
-          - 1)*scale_by_gap*total(k)
+      if (power == 0) cycle
+      by_gap(k) = by_gap(k) + real(power, wp)*scale**(power - 1)*scale_by_gap*total(k)
     end do
   end subroutine end_jump
 
@@ -166,7 +166,7 @@ contains
     call assemble(x, z, first, cotangent, ridge_part, depth, far, matrix, pressure, error)
     if (allocated(error)) return
     call dpbsv('U', size(pressure, 1), size(matrix, 1) - 1, 2, matrix, size(matrix, 1), &
-        pressure, size(pressure, 1), info)
+               pressure, size(pressure, 1), info)
     if (info /= 0) then
       error = error_type('the film at the end of a band has no answer')
       return
@@ -185,8 +185,8 @@ contains
   !>
   !> With \( \xi = x - z \cot b \) the pressure is \( s z + \varphi(\xi) \), and the flow across the
   !> lines is even, which gives \( \varphi' \); its mean over a pitch is 0.
-  pure type(far_type) function band_without_ends(cotangent, ridge_part, depth, motion, &
-      flow) result(far)
+  pure type(far_type) function band_without_ends(cotangent, ridge_part, depth, motion, flow) &
+    result(far)
     real(wp), intent(in) :: cotangent, ridge_part, depth, motion, flow
     real(wp) :: share(2), gap(2), sine, flows(2), across
     integer :: k
@@ -198,8 +198,8 @@ contains
     do k = 1, 2
       far%slope = real(k - 1, wp)
       across = (motion*sum(share/gap**2) + cotangent*far%slope)/sum(share/gap**3)
-      flows(k) = sum(share*(-gap**3*far%slope + cotangent*sine*(motion*gap &
-          + cotangent*gap**3*far%slope - across)))
+      flows(k) = sum(share*(-gap**3*far%slope &
+                            + cotangent*sine*(motion*gap + cotangent*gap**3*far%slope - across)))
     end do
     far%slope = (flow - flows(1))/(flows(2) - flows(1))
     across = (motion*sum(share/gap**2) + cotangent*far%slope)/sum(share/gap**3)
@@ -286,9 +286,8 @@ contains
     real(wp) :: side(0:sides)
     integer :: i
 
-    side = [(0.5_wp*(first + last) + 0.5_wp*(last - first)*tanh(rate*(2.0_wp*real(i, &
-        wp)/real(sides, wp) - 1.0_wp))/tanh(rate), &
-             i=0, sides)]
+    side = [(0.5_wp*(first + last) + 0.5_wp*(last - first)* &
+             tanh(rate*(2.0_wp*real(i, wp)/real(sides, wp) - 1.0_wp))/tanh(rate), i=0, sides)]
     place(1::2) = side(:sides - 1)
     place(2::2) = 0.5_wp*(side(:sides - 1) + side(1:))
   end function graded

@@ -577,7 +577,7 @@ contains
         end if
       end if
       if (scene%model%foil%has_crest_springs) call align_stations(mesh, bearing%leading_edge_angle + plate_sides(scene, kink))
-      call meet_bands(scene, mesh)
+      if (.not. scene%grooves%are_resolved()) call meet_bands(scene, mesh)
       call refine_at_holes(scene, kept_sides(), mesh)
     end associate
     mesh%planned = [plan%circumferential, plan%axial]

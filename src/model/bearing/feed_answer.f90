@@ -68,8 +68,9 @@ contains
 
     work = 1.0_wp
     if (.not. (feed%supply > feed%ambient .and. abs(part - 1.0_wp) > 0.0_wp)) return
-    work = log(supply_at(feed%supply, feed%ambient, &
-        part)/feed%ambient)/log(feed%supply/feed%ambient)
+    associate (reached => supply_at(feed%supply, feed%ambient, part))
+      work = log(reached/feed%ambient)/log(feed%supply/feed%ambient)
+    end associate
   end function part_of_work
 
   !> What a piece of a line feeds [Pa m3/s].

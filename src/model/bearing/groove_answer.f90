@@ -97,7 +97,7 @@ contains
     do i = 1, size(bearing%pad)
       do element = 1, size(bearing%pad(i)%film%element_nodes, 2)
         groove = bearing%pad(i)%film%groove_of(element)
-        most = max(most, real(groove%band, wp))
+        most = max(most, real(groove%end%band, wp))
       end do
     end do
     most = largest_over_ranks(most)
@@ -107,16 +107,15 @@ contains
       associate (pad => bearing%pad(i), film => bearing%pad(i)%film)
         do element = 1, size(film%element_nodes, 2)
           groove = film%groove_of(element)
-          if (groove%band == 0) cycle
+          if (groove%end%band == 0) cycle
           associate (nodes => film%element_nodes(:, element), geometry => film%geometry(element), &
-                     excess => film%excess(element, point))
-            jump(:, groove%outside, groove%band) = jump(:, groove%outside, groove%band) + &
-              [groove_jump(geometry, film%flow_at(point), film%law, groove, unknown(pad%first &
-                  + nodes), &
-                           film%element_gap(element, unknown(pad%first + 1:pad%last), &
-                                            gap(pad%first_node + 1:pad%last_node)), &
-                                                excess(:size(nodes))), &
-               sum(geometry%area)]
+                     excess => film%excess(element, point), &
+                     inside => film%element_gap(element, unknown(pad%first + 1:pad%last), &
+                                                gap(pad%first_node + 1:pad%last_node)), &
+                     sums => jump(:, groove%end%outside, groove%end%band))
+            sums = sums + [groove_jump(geometry, film%flow_at(point), film%law, groove, &
+                                       unknown(pad%first + nodes), inside, excess(:size(nodes))), &
+                           sum(geometry%area)]
           end associate
         end do
       end associate

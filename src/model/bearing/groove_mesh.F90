@@ -25,8 +25,8 @@ contains
     real(wp) :: rows(2), pitch
     integer :: groove, around, i, k
 
-    associate (grooves => scene%grooves, order => mesh%order, refinement => scene%mesh%edge_refinement)
-      around = grooves%elements_around(size(mesh%station_angle)/order)/grooves%count
+    associate (grooves => scene%grooves)
+      around = grooves%whole_elements(size(mesh%station_angle)/mesh%order)/grooves%count
       groove = min(max(2, nint(real(around, wp)*(1.0_wp - grooves%ridge_part))), around - 2)
       pitch = turn/real(grooves%count, wp)
       part = [graded([0.0_wp, 1.0_wp - grooves%ridge_part], groove), graded([1.0_wp - grooves%ridge_part, 1.0_wp], around - groove)]

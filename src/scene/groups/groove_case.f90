@@ -8,8 +8,8 @@ module gfb_groove_case
   use gfb_film_surface, only: film_surface_type
   use gfb_case_keys, only: case_keys_type, longest_list, any_value, between, from_to, &
                            not_negative, unless
-  use gfb_groove_ends, only: fitted, end_open, end_land, fit_ends
-  use gfb_groove_film, only: groove_type
+  use gfb_groove_ends, only: end_open, end_land, fit_ends
+  use gfb_groove_film, only: groove_type, groove_end_type
   use gfb_key_effect, only: acts_on_film, acts_on_all
   use gfb_text, only: text
   implicit none (type, external)
@@ -25,7 +25,7 @@ module gfb_groove_case
   integer, parameter, public :: grooves_resolved = 3 !! as many as there are
   integer, parameter :: fewest_elements = 4 !! of a pitch
   ! Those that give the load of the rows of two programs to 2e-3, of 8 to 48 grooves.
-  integer, parameter :: usual_elements = 12 !! of a pitch at least
+  integer, parameter :: usual_of_pitch = 12 !! of a pitch at least
   integer, parameter :: usual_around = 192  !! of all of them at least
   integer, parameter, public :: resolved_rows = 40 !! across the width
   real(wp), parameter, public :: resolved_refinement = 20.0_wp !! of ridge, groove and band
@@ -43,15 +43,11 @@ module gfb_groove_case
   real(wp), parameter :: strip_part = 0.1_wp
   real(wp), parameter :: most_of_band = 0.2_wp !! that a strip may take
 
-  !> An end of a band, and the strip on which the jump of its pressure is spread.
-  type :: band_end_type
-    integer :: band = 0
-    real(wp) :: strip(2) = 0.0_wp !! from lower to higher z, or radius [m]
-    real(wp) :: side = 1.0_wp     !! 1: the band lies behind its end
-    integer :: outside = end_open
-    real(wp) :: pitch = 0.0_wp    !! [m]
-    real(wp) :: fit(fitted, 2) = 0.0_wp !! see `gfb_groove_ends`; 0: not weighed
-  end type band_end_type
+  !> A strip on which the jump of the pressure at the end of a band is spread.
+  type :: strip_type
+    real(wp) :: place(2) = 0.0_wp !! from lower to higher z, or radius [m]
+    type(groove_end_type) :: end
+  end type strip_type
 
   !> The grooves. Places are z, or radii of a thrust bearing.
   type :: groove_case_type
@@ -64,10 +60,10 @@ module gfb_groove_case
     integer, allocatable :: pumping(:)                  !! of each band
     integer :: count = 0 !! grooves around; 0: not known
     integer :: model = grooves_narrow
-    type(band_end_type), allocatable :: end(:) !! of all bands, where they cost something
+    type(strip_type), allocatable :: strip(:) !! of all bands, where they cost something
   contains
     procedure, non_overridable :: mirrors, groove_at, row_ends, weigh_ends
-    procedure, non_overridable :: are_resolved, elements_around, line_angle
+    procedure, non_overridable :: are_resolved, usual_elements, whole_elements, line_angle, angle_of
   end type groove_case_type
 
 contains
@@ -206,18 +202,10 @@ contains
     if (self%are_resolved() .or. .not. abs(angle) > 0.0_wp) return
     groove = groove_type(1.0_wp - self%ridge_part, self%depth, [cos(angle), sin(angle)], &
                          self%member == on_shaft)
-    if (.not. allocated(self%end)) return
-    do i = 1, size(self%end)
-      associate (end => self%end(i))
-        if (along < end%strip(1) .or. along > end%strip(2)) cycle
-        groove%band = end%band
-        groove%spread = end%pitch/(end%strip(2) - end%strip(1))
-        groove%side = end%side
-        groove%sense = merge(1.0_wp, -1.0_wp, (self%pumping(end%band) == pumps_up) .eqv. &
-                             (end%side > 0.0_wp .eqv. end%outside == end_open))
-        groove%outside = end%outside
-        groove%pitch = end%pitch
-        groove%fit = end%fit
+    if (.not. allocated(self%strip)) return
+    do i = 1, size(self%strip)
+      associate (place => self%strip(i)%place)
+        if (along >= place(1) .and. along <= place(2)) groove%end = self%strip(i)%end
       end associate
     end do
   end function groove_at
@@ -228,15 +216,15 @@ contains
     type(bearing_case_type), intent(in) :: bearing
     type(film_surface_type) :: surface
     real(wp) :: rows(2), place, width
-    type(band_end_type) :: end
+    type(strip_type) :: strip
     integer :: band, k
 
     if (.not. grooves%present .or. grooves%model /= grooves_with_ends) return
-    allocate (grooves%end(0))
+    allocate (grooves%strip(0))
     surface = surface_of(bearing)
     rows = pad_rows(bearing)
-    associate (first => grooves%band_begin, last => grooves%band_end, &
-        slack => rounding*maxval(abs(rows)))
+    associate (first => grooves%band_begin, last => grooves%band_end, end => strip%end, &
+               slack => rounding*maxval(abs(rows)))
       do band = 1, size(first)
         do k = 1, 2
           place = merge(first(band), last(band), k == 1)
@@ -246,10 +234,13 @@ contains
           end%outside = merge(end_open, end_land, abs(rows(k) - place) <= slack)
           if (end%outside == end_open .and. k == 1 .and. &
               bearing%inner_edge == inner_edge_sealed) cycle
+          end%sense = merge(1.0_wp, -1.0_wp, (grooves%pumping(band) == pumps_up) .eqv. &
+                            (k == 1 .eqv. end%outside == end_open))
           end%pitch = turn*surface%radius_at(place)/real(grooves%count, wp)
           width = min(strip_part*end%pitch, most_of_band*(last(band) - first(band)))
-          end%strip = merge([place, place + width], [place - width, place], k == 1)
-          grooves%end = [grooves%end, end]
+          strip%place = merge([place, place + width], [place - width, place], k == 1)
+          end%spread = end%pitch/(strip%place(2) - strip%place(1))
+          grooves%strip = [grooves%strip, strip]
         end do
       end do
     end associate
@@ -261,22 +252,29 @@ contains
     type(error_type), allocatable :: error
     integer :: i, k
 
-    if (.not. allocated(self%end)) return
-    do i = 1, size(self%end)
-      associate (end => self%end(i), angle => self%angle(min(self%end(i)%band, size(self%angle))))
+    if (.not. allocated(self%strip)) return
+    do i = 1, size(self%strip)
+      associate (end => self%strip(i)%end)
         do k = 1, i - 1
-          if (self%end(k)%outside /= end%outside) cycle
-          if (abs(self%angle(min(self%end(k)%band, size(self%angle))) - angle) <= rounding) exit
+          if (self%strip(k)%end%outside /= end%outside) cycle
+          if (abs(self%angle_of(self%strip(k)%end%band) - self%angle_of(end%band)) <= rounding) exit
         end do
         if (k < i) then
-          end%fit = self%end(k)%fit
+          end%fit = self%strip(k)%end%fit
         else
-          call fit_ends(angle, self%ridge_part, end%outside, end%fit, error)
+          call fit_ends(self%angle_of(end%band), self%ridge_part, end%outside, end%fit, error)
           if (allocated(error)) error stop 'an end of grooves that cannot be weighed'
         end if
       end associate
     end do
   end subroutine weigh_ends
+
+  !> Angle between the lines of a band and the motion, without a sign [rad].
+  pure real(wp) function angle_of(self, band) result(angle)
+    class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
+    integer, intent(in) :: band !! its number
+    angle = self%angle(min(band, size(self%angle)))
+  end function angle_of
 
   !> Angle of the grooves' lines with the motion at a place across it, positive where they rise with
   !> theta; 0 between bands [rad].
@@ -291,7 +289,7 @@ contains
     if (.not. self%present) return
     do i = 1, size(self%band_begin)
       if (along < self%band_begin(i) .or. along > self%band_end(i)) cycle
-      angle = self%angle(min(i, size(self%angle)))
+      angle = self%angle_of(i)
       if ((self%pumping(i) == pumps_up) .neqv. (self%member == on_sleeve)) angle = -angle
     end do
   end function line_angle
@@ -302,21 +300,21 @@ contains
     resolved = self%present .and. self%model == grooves_resolved
   end function are_resolved
 
-  !> Elements around the shaft: a whole number of each groove and of each ridge; as they are where
-  !> grooves are not meshed.
-  pure integer function elements_around(self, wanted) result(elements)
+  !> Elements around the shaft that usually suffice where each groove is meshed.
+  pure integer function usual_elements(self) result(elements)
     class(groove_case_type), intent(in) :: self !! what `&grooves` asks for
-    integer, intent(in), optional :: wanted !! about so many; default: what usually suffices
 
-    elements = self%count*usual_elements
-    if (self%count > 0) elements = self%count*max(usual_elements, (usual_around + self%count &
-        - 1)/self%count)
-    if (present(wanted)) then
-      elements = wanted
-      if (self%are_resolved()) elements = self%count*max(fewest_elements, nint(real(wanted, &
-          wp)/real(self%count, wp)))
-    end if
-  end function elements_around
+    elements = 0
+    if (self%count == 0) return
+    elements = self%count*max(usual_of_pitch, (usual_around + self%count - 1)/self%count)
+  end function usual_elements
+
+  !> About so many elements around the shaft, a whole number of each pitch.
+  pure integer function whole_elements(self, wanted) result(elements)
+    class(groove_case_type), intent(in) :: self !! with a count
+    integer, intent(in) :: wanted !! elements
+    elements = self%count*max(fewest_elements, nint(real(wanted, wp)/real(self%count, wp)))
+  end function whole_elements
 
   !> Places inside a width where bands, or strips at their ends, begin or end, rising [m].
   pure function row_ends(self, rows) result(ends)
@@ -331,14 +329,11 @@ contains
     slack = rounding*maxval(abs(rows))
     do i = 1, size(self%band_begin)
       call add(self%band_begin(i))
-      if (allocated(self%end)) then
-        do k = 1, size(self%end)
-          if (self%end(k)%band /= i) cycle
-          if (self%end(k)%side > 0.0_wp) call add(self%end(k)%strip(2))
-        end do
-        do k = 1, size(self%end)
-          if (self%end(k)%band /= i) cycle
-          if (self%end(k)%side < 0.0_wp) call add(self%end(k)%strip(1))
+      if (allocated(self%strip)) then
+        do k = 1, size(self%strip) ! rising, too
+          associate (end => self%strip(k)%end)
+            if (end%band == i) call add(self%strip(k)%place(merge(2, 1, end%side > 0.0_wp)))
+          end associate
         end do
       end if
       call add(self%band_end(i))

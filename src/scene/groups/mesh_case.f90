@@ -134,7 +134,7 @@ contains
     mesh%edge_refinement = bearing%row%edge_refinement
     if (keys%line_of_group('feed') > 0) mesh%edge_refinement = bearing_thrust%edge_refinement
     if (grooves%are_resolved()) then
-      mesh%circumferential_elements = grooves%elements_around()
+      mesh%circumferential_elements = grooves%usual_elements()
       mesh%axial_elements = 2*resolved_rows/model%film_order
       mesh%edge_refinement = resolved_refinement
     end if
